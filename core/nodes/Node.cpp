@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/nodes/Node.h"
+
+#include "core/base/Error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace hybridtree
+{
+namespace
+{
+
+// Enough for a drag back and forth between two levels of detail, without hoarding.
+constexpr std::size_t kKeptMeshes = 4;
+
+} // namespace
+
+void Node::signedDistance(PointBatch points, double* distance) const
+{
+  std::fill_n(distance, points.size, std::numeric_limits<double>::quiet_NaN());
+}
+
+double Node::defaultEdgeLength() const
+{
+  const Box3 box = this->surfaceBounds();
+  return box.isEmpty() ? 1.0 : std::max(box.diagonal().norm() / 100.0, 1e-300);
+}
+
+MeshPtr Node::mesh(double edgeLength, const Progress& progress) const
+{
+  if (!std::isfinite(edgeLength) || edgeLength < 0.0)
+  {
+    throw InvalidParameter(
+      "EdgeLength", edgeLength, "a finite length > 0, or 0 for the bounding diagonal / 100");
+  }
+  const double length = edgeLength > 0.0 ? edgeLength : this->defaultEdgeLength();
+  // Held while meshing: a second thread that wants the same mesh waits for it instead of making it
+  // again. Children lock their own mutex, and a tree has no cycles.
+  const std::lock_guard<std::mutex> lock(meshMutex_);
+  for (const auto& [kept, mesh] : meshes_)
+  {
+    if (kept == length)
+    {
+      return mesh;
+    }
+  }
+  auto mesh = std::make_shared<const TriangleMesh>(this->makeMesh(length, progress));
+  if (meshes_.size() == kKeptMeshes)
+  {
+    meshes_.erase(meshes_.begin());
+  }
+  meshes_.emplace_back(length, mesh);
+  return mesh;
+}
+
+NodePtr Node::affine(const Affine3& map) const
+{
+  if (!map.matrix().allFinite())
+  {
+    throw InvalidParameter("The affine map", "not finite", "made of finite numbers");
+  }
+  const double scale = map.linear().norm();
+  if (!(std::abs(map.linear().determinant()) > 1e-15 * scale * scale * scale))
+  {
+    throw InvalidParameter("The scale of the affine map", "0 in some direction",
+      "other than 0 in every direction, or the shape would be flat");
+  }
+  if (map.matrix() == Affine3::Identity().matrix())
+  {
+    return this->shared_from_this();
+  }
+  return this->makeAffine(map);
+}
+
+NodePtr Node::underBlend() const
+{
+  std::vector<NodePtr> children = this->children();
+  bool changed = false;
+  for (NodePtr& child : children)
+  {
+    NodePtr smooth = child->underBlend();
+    changed = changed || smooth != child;
+    child = std::move(smooth);
+  }
+  return changed ? this->withChildren(std::move(children)) : this->shared_from_this();
+}
+
+NodePtr Node::withChildren(std::vector<NodePtr> children) const
+{
+  static_cast<void>(children);
+  return this->shared_from_this();
+}
+
+} // namespace hybridtree

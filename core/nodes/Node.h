@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "core/base/Parameters.h"
+#include "core/base/Progress.h"
+#include "core/mesh/TriangleMesh.h"
+#include "core/polygonize/FieldSource.h"
+
+#include <mutex>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace hybridtree
+{
+
+class Node;
+using NodePtr = std::shared_ptr<const Node>;
+
+/// A node of the HybridTree ([HT] 3): one shape, answered as field, gradient, membership and mesh.
+///
+/// Immutable and shared: an edit makes new nodes on the path to the root and keeps the rest, with all
+/// that those have already computed. Any number of threads may ask one node.
+class Node : public FieldSource, public std::enable_shared_from_this<Node>
+{
+public:
+  /// Classification of p_k ([HT] 4): 1 inside, 0 on the surface (within rounding), -1 outside.
+  /// Answered by what is cheapest for the kind of node, not always by the field.
+  virtual void membership(PointBatch points, std::int8_t* side) const = 0;
+
+  /// Euclidean distance to the surface, negative inside, where the node knows it exactly; NaN where
+  /// it does not (the default).
+  virtual void signedDistance(PointBatch points, double* distance) const;
+
+  /// Which leaf alone makes the field at p_k: its index in the depth-first order of this tree
+  /// (0 .. leafCount() - 1), or -1 where several or none do.
+  virtual void sourceLeaf(PointBatch points, std::int32_t* leaf) const = 0;
+  virtual int leafCount() const = 0;
+
+  /// Closure of where the field is not 0. Empty for an empty shape.
+  virtual Box3 influenceBounds() const = 0;
+
+  /// A box around the surface: conservative, tight where cheap.
+  virtual Box3 surfaceBounds() const = 0;
+
+  /// True when every leaf below has I < 0: a negative shape has no surface of its own ([HT] 4.3).
+  virtual bool isNegative() const = 0;
+
+  /// Closed, consistently oriented 2-manifold of the surface, with normals; empty when there is no
+  /// surface. Kept: the second call with the same length gives the same object.
+  /// \param edgeLength target length, world units; 0 means defaultEdgeLength().
+  /// \throws InvalidParameter, TooLarge, Cancelled.
+  MeshPtr mesh(double edgeLength = 0.0, const Progress& progress = Progress::none()) const;
+
+  /// Diagonal of surfaceBounds() / 100.
+  double defaultEdgeLength() const;
+
+  /// This shape under an affine map, pushed down to the leaves ([HT] 4.5.3). Exact: the field of the
+  /// image at map * p is this field at p, for similarities and for all other invertible maps.
+  /// \throws InvalidParameter for a map that is not finite or not invertible.
+  NodePtr affine(const Affine3& map) const;
+
+  /// This tree as it has to be below a blend: Booleans of automatic form take their smooth form
+  /// ([HT] 4.4). The same object where nothing changes.
+  virtual NodePtr underBlend() const;
+
+  /// Name in the serialised tree, everything but the children needed to make the node again, and
+  /// the children in order.
+  virtual const char* kind() const = 0;
+  virtual Parameters parameters() const = 0;
+  virtual std::vector<NodePtr> children() const { return {}; }
+
+  /// What the user should know about this node itself: repairs made to its input, folds, open meshes.
+  virtual std::vector<std::string> warnings() const { return {}; }
+
+protected:
+  virtual TriangleMesh makeMesh(double edgeLength, const Progress& progress) const = 0;
+
+  /// \pre map is finite and invertible.
+  virtual NodePtr makeAffine(const Affine3& map) const = 0;
+
+  /// A copy of this node over other children. Called only on nodes that have any.
+  virtual NodePtr withChildren(std::vector<NodePtr> children) const;
+
+private:
+  mutable std::mutex meshMutex_;
+  mutable std::vector<std::pair<double, MeshPtr>> meshes_;
+};
+
+} // namespace hybridtree

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "core/base/Parameters.h"
+#include "core/base/Types.h"
+#include "core/mesh/TriangleMesh.h"
+
+#include <memory>
+#include <optional>
+
+namespace hybridtree
+{
+
+class Skeleton;
+using SkeletonPtr = std::shared_ptr<const Skeleton>;
+
+/// A geometric object with an analytic distance, around which a primitive is built ([HT] 4.1).
+/// Knows lengths only: potentials belong to the node that holds it. Immutable.
+class Skeleton
+{
+public:
+  virtual ~Skeleton() = default;
+
+  /// distance[k] = Euclidean distance of p_k to the skeleton, >= 0; 0 inside a volume skeleton.
+  virtual void distance(PointBatch points, double* distance) const = 0;
+
+  /// And its gradient: the unit vector from the nearest skeleton point to p_k; 0 where distance is 0.
+  /// Where several skeleton points are nearest, one of them, always the same one.
+  virtual void distanceAndGradient(
+    PointBatch points, double* distance, VectorBatch gradient) const = 0;
+
+  /// Distance, negative inside a volume skeleton (minus the distance to its boundary).
+  virtual void signedDistance(PointBatch points, double* distance) const
+  {
+    this->distance(points, distance);
+  }
+
+  /// Conservative [min, max] of distance() over a box, tight as the box shrinks.
+  virtual Interval distanceRange(const Box3& box) const = 0;
+
+  /// Bounds of the skeleton itself.
+  virtual Box3 bounds() const = 0;
+
+  /// Closed 2-manifold mesh of the surface at `radius` from the skeleton, made directly ([HT] 5.1):
+  /// edges <= edgeLength where the shape allows, vertices on the surface, exact normals.
+  /// Empty when this skeleton has no direct mesh for these values (a self-meeting offset): the
+  /// caller then uses the lattice. \pre radius >= 0 (0 only for volume skeletons), edgeLength > 0.
+  virtual std::optional<TriangleMesh> offsetMesh(double radius, double edgeLength) const = 0;
+
+  /// This skeleton under a similarity of scale `scale`: again one of the same kind.
+  virtual SkeletonPtr similarityImage(const Affine3& map, double scale) const = 0;
+
+  /// Name in the serialised tree ("point", "segment", ...), and everything needed to make it again.
+  virtual const char* kind() const = 0;
+  virtual Parameters parameters() const = 0;
+};
+
+} // namespace hybridtree
