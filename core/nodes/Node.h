@@ -70,6 +70,10 @@ public:
   virtual Parameters parameters() const = 0;
   virtual std::vector<NodePtr> children() const { return {}; }
 
+  /// The mesh a mesh leaf is made of, which parameters() names by its content hash as "mesh"; null
+  /// for every other kind.
+  virtual MeshPtr leafMesh() const { return nullptr; }
+
   /// What the user should know about this node itself: repairs made to its input, folds, open meshes.
   virtual std::vector<std::string> warnings() const { return {}; }
 

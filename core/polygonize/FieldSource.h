@@ -23,9 +23,16 @@ public:
   virtual void field(PointBatch points, double* value) const = 0;
 
   /// As field(), and gradient k = grad f(p_k). Where f is not differentiable one of the one-sided
-  /// gradients is given; where the nearest skeleton point is not unique, one of the nearest is used.
-  virtual void fieldAndGradient(
-    PointBatch points, double* value, VectorBatch gradient) const = 0;
+  /// gradients is given; where the nearest skeleton point is not unique, one of the nearest is
+  /// used.
+  virtual void fieldAndGradient(PointBatch points, double* value, VectorBatch gradient) const = 0;
+
+  ///@{
+  /// The same, added to what the arrays hold: sums of many sources need no memory between. The
+  /// default calls the overwriting form; leaves that are summed by the hundred do better.
+  virtual void addField(PointBatch points, double* sum) const;
+  virtual void addFieldAndGradient(PointBatch points, double* sum, VectorBatch gradientSum) const;
+  ///@}
 
   /// [min, max] with min <= f(p) <= max for every p in the box. Conservative, and the tighter the
   /// smaller the box: as the box shrinks to a point both ends go to f(p).
