@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "core/nodes/Node.h"
+
+namespace hybridtree
+{
+
+/// Mesh of any node from its field alone: polygonize() with cells of side `edgeLength` over the
+/// node's surface bounds, and the leaf of each triangle from Node::sourceLeaf() at its centroid.
+///
+/// The lengths of the edges vary from 0 to sqrt(3) edgeLength, 0.7 edgeLength on average.
+/// Empty for a negative node and where the field stays below T.
+/// \throws InvalidParameter, TooLarge, Cancelled as polygonize().
+TriangleMesh latticeMesh(
+  const Node& node, double edgeLength, const Progress& progress = Progress::none());
+
+} // namespace hybridtree
