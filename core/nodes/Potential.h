@@ -3,6 +3,7 @@
 
 #include "core/base/Parameters.h"
 #include "core/base/Types.h"
+#include "core/geometry/Falloff.h"
 
 #include <cstddef>
 #include <optional>
@@ -14,8 +15,8 @@ namespace hybridtree
 ///
 /// [HT] 4.1: g(r) = I (1 - r^2/R^2)^n for 0 <= r <= R, and 0 beyond.
 /// Units: r and R are model lengths; I and g have none; I < 0 carves.
-/// Departs from [HT]: where no surface exists the inverse is empty instead of 0, so that "surface of
-/// radius 0" and "no surface" stay two answers.
+/// Departs from [HT]: where no surface exists the inverse is empty instead of 0, so that "surface
+/// of radius 0" and "no surface" stay two answers.
 class Potential
 {
 public:
@@ -42,6 +43,9 @@ public:
 
   /// r_T with |g(r_T)| = T. Empty when |I| < T.
   std::optional<double> surfaceRadius() const;
+
+  /// The same function as kernels over the squared distance take it.
+  Falloff falloff() const;
 
   /// This potential on lengths multiplied by `scale`.
   Potential scaled(double scale) const;

@@ -3,6 +3,7 @@
 
 #include "core/base/Parameters.h"
 #include "core/base/Types.h"
+#include "core/geometry/Falloff.h"
 #include "core/mesh/TriangleMesh.h"
 
 #include <memory>
@@ -24,8 +25,8 @@ public:
   /// distance[k] = Euclidean distance of p_k to the skeleton, >= 0; 0 inside a volume skeleton.
   virtual void distance(PointBatch points, double* distance) const = 0;
 
-  /// And its gradient: the unit vector from the nearest skeleton point to p_k; 0 where distance is 0.
-  /// Where several skeleton points are nearest, one of them, always the same one.
+  /// And its gradient: the unit vector from the nearest skeleton point to p_k; 0 where distance is
+  /// 0. Where several skeleton points are nearest, one of them, always the same one.
   virtual void distanceAndGradient(
     PointBatch points, double* distance, VectorBatch gradient) const = 0;
 
@@ -34,6 +35,14 @@ public:
   {
     this->distance(points, distance);
   }
+
+  ///@{
+  /// sum[k] += h(distance of p_k), and gradientSum k += the gradient of that: what a blend does for
+  /// each of its leaves, in one pass. The defaults ask for the distance first.
+  virtual void addFalloff(PointBatch points, const Falloff& falloff, double* sum) const;
+  virtual void addFalloffWithGradient(
+    PointBatch points, const Falloff& falloff, double* sum, VectorBatch gradientSum) const;
+  ///@}
 
   /// Conservative [min, max] of distance() over a box, tight as the box shrinks.
   virtual Interval distanceRange(const Box3& box) const = 0;

@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/nodes/Primitive.h"
+
+#include "core/base/Error.h"
+#include "core/base/Scratch.h"
+#include "core/skeletons/SkeletonFactory.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace hybridtree
+{
+namespace
+{
+
+// Points in the leaf's own space: those given, or their images in scratch memory.
+class LocalPoints
+{
+public:
+  LocalPoints(PointBatch points, bool mapped, const Affine3& inverse)
+    : scratch_(mapped ? points.size : 0), points_(mapped ? scratch_.points() : points)
+  {
+    if (mapped)
+    {
+      const VectorBatch local = scratch_.batch();
+      for (std::size_t k = 0; k < points.size; ++k)
+      {
+        local.set(k, inverse * points[k]);
+      }
+    }
+  }
+  operator PointBatch() const { return points_; }
+
+private:
+  ScratchVectors scratch_;
+  PointBatch points_;
+};
+
+// Distances at coordinates of this size carry rounding of this order.
+double roundingAt(const Box3& box)
+{
+  return 1e-14 * (box.min().cwiseAbs().maxCoeff() + box.max().cwiseAbs().maxCoeff());
+}
+
+} // namespace
+
+Primitive::Primitive(SkeletonPtr skeleton, const Potential& potential, const Affine3& map)
+  : skeleton_(std::move(skeleton))
+  , potential_(potential)
+  , falloff_(potential.falloff())
+  , surfaceRadius_(potential.surfaceRadius())
+  , inverse_(Affine3::Identity())
+{
+  if (map.matrix() != Affine3::Identity().matrix())
+  {
+    map_ = map;
+    inverse_ = map.inverse();
+  }
+  influenceBounds_ = this->offsetBounds(potential_.influenceRadius());
+  if (this->hasSurface())
+  {
+    surfaceBounds_ = this->offsetBounds(*surfaceRadius_);
+  }
+}
+
+Box3 Primitive::offsetBounds(double radius) const
+{
+  Box3 box = skeleton_->bounds();
+  Vec3 reach = Vec3::Constant(radius);
+  if (map_)
+  {
+    // The ball of the offset becomes an ellipsoid, whose extent along an axis is the length of that
+    // row of the matrix.
+    box = transformed(box, *map_);
+    reach = radius * map_->linear().rowwise().norm();
+  }
+  return Box3(Vec3(box.min() - reach), Vec3(box.max() + reach));
+}
+
+void Primitive::field(PointBatch points, double* value) const
+{
+  std::fill_n(value, points.size, 0.0);
+  this->addField(points, value);
+}
+
+void Primitive::fieldAndGradient(PointBatch points, double* value, VectorBatch gradient) const
+{
+  std::fill_n(value, points.size, 0.0);
+  std::fill_n(gradient.x, points.size, 0.0);
+  std::fill_n(gradient.y, points.size, 0.0);
+  std::fill_n(gradient.z, points.size, 0.0);
+  this->addFieldAndGradient(points, value, gradient);
+}
+
+void Primitive::addField(PointBatch points, double* sum) const
+{
+  if (map_)
+  {
+    skeleton_->addFalloff(LocalPoints(points, true, inverse_), falloff_, sum);
+    return;
+  }
+  skeleton_->addFalloff(points, falloff_, sum);
+}
+
+void Primitive::addFieldAndGradient(PointBatch points, double* sum, VectorBatch gradientSum) const
+{
+  if (!map_)
+  {
+    skeleton_->addFalloffWithGradient(points, falloff_, sum, gradientSum);
+    return;
+  }
+  const LocalPoints local(points, true, inverse_);
+  ScratchVectors own(points.size);
+  const VectorBatch gradient = own.batch();
+  std::fill_n(gradient.x, points.size, 0.0);
+  std::fill_n(gradient.y, points.size, 0.0);
+  std::fill_n(gradient.z, points.size, 0.0);
+  skeleton_->addFalloffWithGradient(local, falloff_, sum, gradient);
+  const Mat3 transposed = inverse_.linear().transpose();
+  for (std::size_t k = 0; k < points.size; ++k)
+  {
+    gradientSum.set(k, gradientSum[k] + transposed * gradient[k]);
+  }
+}
+
+Interval Primitive::range(const Box3& box) const
+{
+  if (!box.intersects(influenceBounds_))
+  {
+    return {};
+  }
+  return potential_.range(skeleton_->distanceRange(map_ ? transformed(box, inverse_) : box));
+}
+
+FieldSourcePtr Primitive::restrictedTo(const Box3& box) const
+{
+  if (!box.intersects(influenceBounds_))
+  {
+    return nullptr;
+  }
+  const Interval distance = skeleton_->distanceRange(map_ ? transformed(box, inverse_) : box);
+  return distance.min < potential_.influenceRadius() ? this->shared_from_this() : nullptr;
+}
+
+void Primitive::membership(PointBatch points, std::int8_t* side) const
+{
+  if (!this->hasSurface())
+  {
+    std::fill_n(side, points.size, std::int8_t(-1));
+    return;
+  }
+  const LocalPoints local(points, map_.has_value(), inverse_);
+  ScratchArray distance(points.size);
+  skeleton_->signedDistance(local, distance.data());
+  const double radius = *surfaceRadius_;
+  const double rounding = roundingAt(skeleton_->bounds()) + 1e-14 * radius;
+  for (std::size_t k = 0; k < points.size; ++k)
+  {
+    const double over = distance[k] - radius;
+    side[k] = static_cast<std::int8_t>(over > rounding ? -1 : over < -rounding ? 1 : 0);
+  }
+}
+
+void Primitive::signedDistance(PointBatch points, double* distance) const
+{
+  if (map_ || !this->hasSurface())
+  {
+    Node::signedDistance(points, distance);
+    return;
+  }
+  skeleton_->signedDistance(points, distance);
+  for (std::size_t k = 0; k < points.size; ++k)
+  {
+    distance[k] -= *surfaceRadius_;
+  }
+}
+
+void Primitive::sourceLeaf(PointBatch points, std::int32_t* leaf) const
+{
+  const LocalPoints local(points, map_.has_value(), inverse_);
+  ScratchArray distance(points.size);
+  skeleton_->distance(local, distance.data());
+  for (std::size_t k = 0; k < points.size; ++k)
+  {
+    leaf[k] = distance[k] < potential_.influenceRadius() ? 0 : -1;
+  }
+}
+
+Parameters Primitive::parameters() const
+{
+  Parameters parameters;
+  parameters.set("skeleton", skeleton_->kind());
+  const Parameters own = skeleton_->parameters();
+  for (const auto& [name, value] : own.entries())
+  {
+    parameters.set(name, value);
+  }
+  potential_.describe(parameters);
+  if (map_)
+  {
+    parameters.set("map", *map_);
+  }
+  return parameters;
+}
+
+TriangleMesh Primitive::makeMesh(double edgeLength, const Progress& progress) const
+{
+  static_cast<void>(progress);
+  if (!this->hasSurface())
+  {
+    return {};
+  }
+  return skeleton_->offsetMesh(*surfaceRadius_, edgeLength).value_or(TriangleMesh());
+}
+
+NodePtr Primitive::makeAffine(const Affine3& map) const
+{
+  return makePrimitive(skeleton_, potential_, map_ ? map * *map_ : map);
+}
+
+NodePtr makePrimitive(SkeletonPtr skeleton, const Potential& potential, const Affine3& map)
+{
+  if (!skeleton)
+  {
+    throw InvalidParameter("The skeleton of a primitive", "missing", "a skeleton");
+  }
+  if (map.matrix() == Affine3::Identity().matrix())
+  {
+    return std::make_shared<Primitive>(std::move(skeleton), potential, map);
+  }
+  if (!map.matrix().allFinite() || map.linear().determinant() == 0.0)
+  {
+    throw InvalidParameter(
+      "The map of a primitive", "not finite or not invertible", "an invertible matrix");
+  }
+  if (const std::optional<double> scale = similarityScale(map))
+  {
+    return std::make_shared<Primitive>(
+      skeleton->similarityImage(map, *scale), potential.scaled(*scale), Affine3::Identity());
+  }
+  return std::make_shared<Primitive>(std::move(skeleton), potential, map);
+}
+
+NodePtr primitiveFromParameters(
+  const Parameters& parameters, const std::vector<NodePtr>& children, const MeshLookup&)
+{
+  requireChildren("primitive", children, 0);
+  const Affine3 map =
+    parameters.has("map") ? parameters.getAffine("map") : Affine3(Affine3::Identity());
+  return makePrimitive(makeSkeleton(parameters.getString("skeleton"), parameters),
+    Potential::fromParameters(parameters), map);
+}
+
+} // namespace hybridtree

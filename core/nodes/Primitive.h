@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "core/nodes/Node.h"
+#include "core/nodes/NodeMaker.h"
+#include "core/nodes/Potential.h"
+#include "core/skeletons/Skeleton.h"
+
+#include <optional>
+
+namespace hybridtree
+{
+
+/// Leaf: a skeleton with a potential, f(p) = g(d(M^-1 p)) ([HT] 4.1), M being the identity for all
+/// but images under non-similarities.
+///
+/// The surface is where d = r_T: none when |I| < T, the skeleton itself when |I| = T. A negative
+/// primitive has no surface of its own: it only carves where something blends with it ([HT] 4.3).
+class Primitive final : public Node
+{
+public:
+  /// \pre map is the identity or no similarity (makePrimitive() sees to it).
+  Primitive(SkeletonPtr skeleton, const Potential& potential, const Affine3& map);
+
+  const Skeleton& skeleton() const { return *skeleton_; }
+  const Potential& potential() const { return potential_; }
+  /// From the space of skeleton and potential to that of the node; empty for the identity.
+  const std::optional<Affine3>& map() const { return map_; }
+
+  void field(PointBatch points, double* value) const override;
+  void fieldAndGradient(PointBatch points, double* value, VectorBatch gradient) const override;
+  void addField(PointBatch points, double* sum) const override;
+  void addFieldAndGradient(PointBatch points, double* sum, VectorBatch gradientSum) const override;
+  Interval range(const Box3& box) const override;
+  FieldSourcePtr restrictedTo(const Box3& box) const override;
+
+  /// By the signed distance to the skeleton: inside a volume skeleton is inside for every r_T.
+  void membership(PointBatch points, std::int8_t* side) const override;
+
+  /// d - r_T. Inside a volume skeleton d is negative there and the value exact too; NaN under a
+  /// non-similarity and where there is no surface.
+  void signedDistance(PointBatch points, double* distance) const override;
+
+  /// 0 within the influence, -1 beyond.
+  void sourceLeaf(PointBatch points, std::int32_t* leaf) const override;
+  int leafCount() const override { return 1; }
+
+  Box3 influenceBounds() const override { return influenceBounds_; }
+  Box3 surfaceBounds() const override { return surfaceBounds_; }
+  bool isNegative() const override { return potential_.isNegative(); }
+
+  const char* kind() const override { return "primitive"; }
+  /// "skeleton" (its kind) with the skeleton's own, those of the potential, "map" where there is
+  /// one.
+  Parameters parameters() const override;
+
+protected:
+  TriangleMesh makeMesh(double edgeLength, const Progress& progress) const override;
+  NodePtr makeAffine(const Affine3& map) const override;
+
+private:
+  bool hasSurface() const { return surfaceRadius_ && !this->isNegative(); }
+  Box3 offsetBounds(double radius) const;
+
+  SkeletonPtr skeleton_;
+  Potential potential_;
+  Falloff falloff_;
+  std::optional<double> surfaceRadius_;
+  std::optional<Affine3> map_;
+  Affine3 inverse_;
+  Box3 influenceBounds_;
+  Box3 surfaceBounds_;
+};
+
+/// A primitive, or its image under a map: similarities are absorbed by skeleton and potential,
+/// other maps stay in the leaf ([HT] 4.5.3). \throws InvalidParameter without a skeleton, or for a
+/// map that is not finite or not invertible.
+NodePtr makePrimitive(
+  SkeletonPtr skeleton, const Potential& potential, const Affine3& map = Affine3::Identity());
+
+/// NodeMaker: the primitive that Primitive::parameters() describes, with exactly its numbers.
+/// \throws InvalidText, InvalidParameter.
+NodePtr primitiveFromParameters(
+  const Parameters& parameters, const std::vector<NodePtr>& children, const MeshLookup& lookup);
+
+} // namespace hybridtree

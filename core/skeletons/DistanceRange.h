@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "core/skeletons/Skeleton.h"
+
+namespace hybridtree
+{
+
+/// [min, max] of the distance to a convex skeleton over a box. The distance is then a convex
+/// function: its maximum is at a corner (exact), and it lies above its tangent plane at the centre
+/// of the box (exact to second order in the size of the box). \pre the box is not empty.
+Interval convexDistanceRange(const Skeleton& skeleton, const Box3& box);
+
+/// The interval widened by the rounding that distances at such coordinates carry; not below 0.
+Interval widenedByRounding(Interval distance, const Box3& box, const Box3& skeletonBounds);
+
+} // namespace hybridtree
