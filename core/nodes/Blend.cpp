@@ -1,0 +1,482 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/nodes/Blend.h"
+
+#include "core/base/Error.h"
+#include "core/base/Scratch.h"
+#include "core/nodes/BlendHierarchy.h"
+#include "core/nodes/LatticeMesh.h"
+#include "core/nodes/Membership.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <unordered_map>
+
+namespace hybridtree
+{
+namespace
+{
+
+// Points that are evaluated together: few enough that their box is small where points come in
+// order.
+constexpr std::size_t kSlice = 256;
+
+// A nested blend's terms are taken over up to this many: a chain of blends of shared children has
+// exponentially many.
+constexpr std::size_t kMostTerms = 1 << 16;
+
+// More terms than this, and the surface bounds don't look at pairs.
+constexpr std::size_t kMostPaired = 4096;
+
+const std::array<const char*, 4> kMethodNames = { "automatic", "nodeBased", "primitiveBased",
+  "global" };
+
+Box3 boundsOf(PointBatch points)
+{
+  Box3 box;
+  for (std::size_t k = 0; k < points.size; ++k)
+  {
+    box.extend(points[k]);
+  }
+  return box;
+}
+
+void clear(double* value, std::size_t count)
+{
+  std::fill_n(value, count, 0.0);
+}
+
+void clear(VectorBatch vector, std::size_t count)
+{
+  clear(vector.x, count);
+  clear(vector.y, count);
+  clear(vector.z, count);
+}
+
+// The terms of a blend that reach a brick, restricted to it.
+class BlendSource final : public FieldSource
+{
+public:
+  explicit BlendSource(std::vector<FieldSourcePtr> terms) : terms_(std::move(terms)) {}
+
+  void field(PointBatch points, double* value) const override
+  {
+    clear(value, points.size);
+    this->addField(points, value);
+  }
+
+  void fieldAndGradient(PointBatch points, double* value, VectorBatch gradient) const override
+  {
+    clear(value, points.size);
+    clear(gradient, points.size);
+    this->addFieldAndGradient(points, value, gradient);
+  }
+
+  void addField(PointBatch points, double* sum) const override
+  {
+    for (const FieldSourcePtr& term : terms_)
+    {
+      term->addField(points, sum);
+    }
+  }
+
+  void addFieldAndGradient(PointBatch points, double* sum, VectorBatch gradientSum) const override
+  {
+    for (const FieldSourcePtr& term : terms_)
+    {
+      term->addFieldAndGradient(points, sum, gradientSum);
+    }
+  }
+
+  Interval range(const Box3& box) const override
+  {
+    Interval sum;
+    for (const FieldSourcePtr& term : terms_)
+    {
+      sum = sum + term->range(box);
+    }
+    return sum;
+  }
+
+  FieldSourcePtr restrictedTo(const Box3& box) const override;
+
+private:
+  std::vector<FieldSourcePtr> terms_;
+};
+
+FieldSourcePtr sumOf(std::vector<FieldSourcePtr> terms)
+{
+  if (terms.empty())
+  {
+    return nullptr;
+  }
+  if (terms.size() == 1)
+  {
+    return std::move(terms.front());
+  }
+  return std::make_shared<BlendSource>(std::move(terms));
+}
+
+FieldSourcePtr BlendSource::restrictedTo(const Box3& box) const
+{
+  std::vector<FieldSourcePtr> kept;
+  kept.reserve(terms_.size());
+  for (const FieldSourcePtr& term : terms_)
+  {
+    if (FieldSourcePtr restricted = term->restrictedTo(box))
+    {
+      kept.push_back(std::move(restricted));
+    }
+  }
+  return sumOf(std::move(kept));
+}
+
+class Blend final : public Node
+{
+public:
+  Blend(std::vector<NodePtr> children, const BlendOptions& options)
+    : children_(std::move(children)), options_(options), hierarchy_(Blend::flatTerms(children_))
+  {
+    for (const NodePtr& child : children_)
+    {
+      leafCount_ += std::min(child->leafCount(), std::numeric_limits<int>::max() - leafCount_);
+      negative_ = negative_ && child->isNegative();
+      influence_.extend(child->influenceBounds());
+    }
+    surface_ = this->findSurfaceBounds();
+  }
+
+  void field(PointBatch points, double* value) const override
+  {
+    clear(value, points.size);
+    this->addField(points, value);
+  }
+
+  void fieldAndGradient(PointBatch points, double* value, VectorBatch gradient) const override
+  {
+    clear(value, points.size);
+    clear(gradient, points.size);
+    this->addFieldAndGradient(points, value, gradient);
+  }
+
+  void addField(PointBatch points, double* sum) const override
+  {
+    Blend::forEachSlice(points,
+      [&](std::size_t begin, PointBatch slice)
+      {
+        hierarchy_.visit(boundsOf(slice),
+          [&](const BlendHierarchy::Term& term) { term.node->addField(slice, sum + begin); });
+      });
+  }
+
+  void addFieldAndGradient(PointBatch points, double* sum, VectorBatch gradientSum) const override
+  {
+    Blend::forEachSlice(points,
+      [&](std::size_t begin, PointBatch slice)
+      {
+        hierarchy_.visit(boundsOf(slice),
+          [&](const BlendHierarchy::Term& term)
+          { term.node->addFieldAndGradient(slice, sum + begin, gradientSum.slice(begin)); });
+      });
+  }
+
+  Interval range(const Box3& box) const override
+  {
+    Interval sum;
+    hierarchy_.visit(
+      box, [&](const BlendHierarchy::Term& term) { sum = sum + term.node->range(box); });
+    return sum;
+  }
+
+  FieldSourcePtr restrictedTo(const Box3& box) const override
+  {
+    std::vector<FieldSourcePtr> kept;
+    hierarchy_.visit(box,
+      [&](const BlendHierarchy::Term& term)
+      {
+        if (FieldSourcePtr restricted = term.node->restrictedTo(box))
+        {
+          kept.push_back(std::move(restricted));
+        }
+      });
+    return sumOf(std::move(kept));
+  }
+
+  void membership(PointBatch points, std::int8_t* side) const override
+  {
+    Blend::forEachSlice(points,
+      [&](std::size_t begin, PointBatch slice) { this->sliceMembership(slice, side + begin); });
+  }
+
+  void sourceLeaf(PointBatch points, std::int32_t* leaf) const override
+  {
+    Blend::forEachSlice(points,
+      [&](std::size_t begin, PointBatch slice) { this->sliceSourceLeaf(slice, leaf + begin); });
+  }
+
+  int leafCount() const override { return leafCount_; }
+  Box3 influenceBounds() const override { return influence_; }
+  Box3 surfaceBounds() const override { return surface_; }
+  bool isNegative() const override { return negative_; }
+
+  // The children are so already.
+  NodePtr underBlend() const override { return this->shared_from_this(); }
+
+  const char* kind() const override { return "blend"; }
+  Parameters parameters() const override
+  {
+    Parameters parameters;
+    describeBlendOptions(options_, parameters);
+    return parameters;
+  }
+  std::vector<NodePtr> children() const override { return children_; }
+
+protected:
+  TriangleMesh makeMesh(double edgeLength, const Progress& progress) const override
+  {
+    return latticeMesh(*this, edgeLength, progress);
+  }
+
+  NodePtr makeAffine(const Affine3& map) const override
+  {
+    std::vector<NodePtr> images;
+    images.reserve(children_.size());
+    for (const NodePtr& child : children_)
+    {
+      images.push_back(child->affine(map));
+    }
+    return makeBlend(std::move(images), options_);
+  }
+
+  NodePtr withChildren(std::vector<NodePtr> children) const override
+  {
+    return makeBlend(std::move(children), options_);
+  }
+
+private:
+  using Term = BlendHierarchy::Term;
+
+  // Sums are associative: the terms of a nested blend are terms of this one.
+  static std::vector<Term> flatTerms(const std::vector<NodePtr>& children)
+  {
+    std::vector<Term> terms;
+    std::int64_t firstLeaf = 0;
+    for (const NodePtr& child : children)
+    {
+      const auto* nested = dynamic_cast<const Blend*>(child.get());
+      if (nested && terms.size() + nested->hierarchy_.terms().size() <= kMostTerms)
+      {
+        for (const Term& term : nested->hierarchy_.terms())
+        {
+          terms.push_back({ term.node, Blend::leafIndex(firstLeaf + term.firstLeaf) });
+        }
+      }
+      else
+      {
+        terms.push_back({ child.get(), Blend::leafIndex(firstLeaf) });
+      }
+      firstLeaf += child->leafCount();
+    }
+    return terms;
+  }
+
+  static std::int32_t leafIndex(std::int64_t index)
+  {
+    return static_cast<std::int32_t>(
+      std::min<std::int64_t>(index, std::numeric_limits<std::int32_t>::max()));
+  }
+
+  template <typename Body>
+  static void forEachSlice(PointBatch points, Body&& body)
+  {
+    for (std::size_t begin = 0; begin < points.size; begin += kSlice)
+    {
+      body(begin, points.slice(begin, std::min(kSlice, points.size - begin)));
+    }
+  }
+
+  // Where only one positive term reaches, the surface is that term's; it can lie elsewhere only
+  // where two overlap. Negative terms only take away.
+  Box3 findSurfaceBounds() const
+  {
+    Box3 bounds;
+    std::vector<Box3> influences;
+    for (const Term& term : hierarchy_.terms())
+    {
+      if (!term.node->isNegative())
+      {
+        bounds.extend(term.node->surfaceBounds());
+        influences.push_back(term.node->influenceBounds());
+      }
+    }
+    for (std::size_t i = 0; i < influences.size(); ++i)
+    {
+      if (influences.size() > kMostPaired)
+      {
+        bounds.extend(influences[i]);
+        continue;
+      }
+      for (std::size_t j = i + 1; j < influences.size() && !bounds.contains(influences[i]); ++j)
+      {
+        const Box3 overlap = influences[i].intersection(influences[j]);
+        if (!overlap.isEmpty())
+        {
+          bounds.extend(overlap);
+        }
+      }
+    }
+    return bounds;
+  }
+
+  // [HT] 4.3 with its inequalities put right, boxes first: outside all positive boxes is outside,
+  // in one box alone that child is asked, else the sum decides.
+  void sliceMembership(PointBatch points, std::int8_t* side) const
+  {
+    constexpr std::int32_t kNone = -1;
+    constexpr std::int32_t kSeveral = -2;
+    std::vector<std::pair<const Node*, Box3>> near;
+    hierarchy_.visit(boundsOf(points),
+      [&](const Term& term) { near.emplace_back(term.node, term.node->influenceBounds()); });
+
+    std::array<std::int32_t, kSlice> sole;
+    for (std::size_t k = 0; k < points.size; ++k)
+    {
+      const Vec3 point = points[k];
+      sole[k] = kNone;
+      bool positive = false;
+      for (std::size_t n = 0; n < near.size() && surface_.contains(point); ++n)
+      {
+        if (near[n].second.contains(point))
+        {
+          sole[k] = sole[k] == kNone ? static_cast<std::int32_t>(n) : kSeveral;
+          positive = positive || !near[n].first->isNegative();
+        }
+      }
+      sole[k] = positive ? sole[k] : kNone;
+      side[k] = -1;
+    }
+    const auto pick = [&](std::int32_t wanted)
+    { return [&sole, wanted](std::size_t k) { return sole[k] == wanted; }; };
+    for (std::size_t n = 0; n < near.size(); ++n)
+    {
+      membershipWhere(*near[n].first, points, pick(static_cast<std::int32_t>(n)), side);
+    }
+    forPointsWhere(points, pick(kSeveral),
+      [&](PointBatch chosen, const std::size_t* index)
+      {
+        ScratchArray value(chosen.size);
+        this->field(chosen, value.data());
+        for (std::size_t k = 0; k < chosen.size; ++k)
+        {
+          side[index[k]] = sideOf(value[k]);
+        }
+      });
+  }
+
+  void sliceSourceLeaf(PointBatch points, std::int32_t* leaf) const
+  {
+    std::vector<const Term*> near;
+    hierarchy_.visit(boundsOf(points), [&](const Term& term) { near.push_back(&term); });
+
+    constexpr std::int32_t kNone = -1;
+    constexpr std::int32_t kSeveral = -2;
+    std::array<std::int32_t, kSlice> sole;
+    std::fill_n(sole.begin(), points.size, kNone);
+    ScratchArray value(points.size);
+    for (std::size_t n = 0; n < near.size(); ++n)
+    {
+      near[n]->node->field(points, value.data());
+      for (std::size_t k = 0; k < points.size; ++k)
+      {
+        if (value[k] != 0.0)
+        {
+          sole[k] = sole[k] == kNone ? static_cast<std::int32_t>(n) : kSeveral;
+        }
+      }
+    }
+    std::fill_n(leaf, points.size, -1);
+    for (std::size_t n = 0; n < near.size(); ++n)
+    {
+      sourceLeafWhere(
+        *near[n]->node, points, [&](std::size_t k) { return sole[k] == static_cast<int>(n); },
+        near[n]->firstLeaf, leaf);
+    }
+  }
+
+  std::vector<NodePtr> children_;
+  BlendOptions options_;
+  BlendHierarchy hierarchy_;
+  Box3 influence_;
+  Box3 surface_;
+  int leafCount_ = 0;
+  bool negative_ = true;
+};
+
+} // namespace
+
+void checkBlendOptions(const BlendOptions& options)
+{
+  if (!(options.overlapThreshold >= 0.0 && options.overlapThreshold <= 1.0))
+  {
+    throw InvalidParameter("OverlapThreshold", options.overlapThreshold, "in [0, 1]");
+  }
+}
+
+void describeBlendOptions(const BlendOptions& options, Parameters& parameters)
+{
+  parameters.set("method", kMethodNames[static_cast<std::size_t>(options.method)]);
+  parameters.set("overlapThreshold", options.overlapThreshold);
+}
+
+BlendOptions blendOptionsFrom(const Parameters& parameters)
+{
+  BlendOptions options;
+  const std::string method = parameters.getString("method");
+  const auto name = std::find(kMethodNames.begin(), kMethodNames.end(), method);
+  if (name == kMethodNames.end())
+  {
+    throw InvalidText("Parameter \"method\" is \"" + method +
+      "\"; it must be automatic, nodeBased, primitiveBased or global.");
+  }
+  options.method = static_cast<BlendMethod>(name - kMethodNames.begin());
+  options.overlapThreshold = parameters.getDouble("overlapThreshold");
+  return options;
+}
+
+std::vector<NodePtr> childrenUnderBlend(std::vector<NodePtr> children, const char* owner)
+{
+  std::unordered_map<const Node*, NodePtr> smooth;
+  for (NodePtr& child : children)
+  {
+    if (!child)
+    {
+      throw InvalidParameter("A child of the " + std::string(owner), "null", "a node");
+    }
+    NodePtr& known = smooth[child.get()];
+    known = known ? known : child->underBlend();
+    child = known;
+  }
+  return children;
+}
+
+NodePtr makeBlend(std::vector<NodePtr> children, const BlendOptions& options)
+{
+  checkBlendOptions(options);
+  if (children.empty())
+  {
+    throw InvalidParameter("The number of children of the blend", "0", "at least 1");
+  }
+  if (children.size() == 1 && children.front())
+  {
+    return children.front();
+  }
+  return std::make_shared<Blend>(childrenUnderBlend(std::move(children), "blend"), options);
+}
+
+NodePtr blendFromParameters(
+  const Parameters& parameters, const std::vector<NodePtr>& children, const MeshLookup&)
+{
+  return makeBlend(children, blendOptionsFrom(parameters));
+}
+
+} // namespace hybridtree

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/nodes/BlendHierarchy.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace hybridtree
+{
+namespace
+{
+
+constexpr std::size_t kGroupSize = 4;
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+float roundedDown(double value)
+{
+  const float nearest = static_cast<float>(std::clamp(value, -3e38, 3e38));
+  return static_cast<double>(nearest) <= value && std::abs(value) < 3e38
+    ? nearest
+    : std::nextafter(std::abs(value) < 3e38 ? nearest : -kInfinity, -kInfinity);
+}
+
+float roundedUp(double value)
+{
+  return -roundedDown(-value);
+}
+
+} // namespace
+
+BlendHierarchy::BlendHierarchy(std::vector<Term> terms)
+{
+  std::vector<std::pair<Box3, Term>> items;
+  items.reserve(terms.size());
+  Box3 all;
+  for (const Term& term : terms)
+  {
+    const Box3 box = term.node->influenceBounds();
+    if (!box.isEmpty()) // a field of 0 adds nothing
+    {
+      items.emplace_back(box, term);
+      all.extend(box);
+    }
+  }
+  if (items.empty())
+  {
+    return;
+  }
+  origin_ = all.center();
+  terms_.reserve(items.size());
+  this->build(items, 0, items.size());
+  groups_.shrink_to_fit();
+}
+
+BlendHierarchy::FloatBox BlendHierarchy::rounded(const Box3& box) const
+{
+  FloatBox result;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    // The subtraction rounds too, by less than the float does: one more step outward pays for it.
+    result.min[axis] = std::nextafter(roundedDown(box.min()[axis] - origin_[axis]), -kInfinity);
+    result.max[axis] = std::nextafter(roundedUp(box.max()[axis] - origin_[axis]), kInfinity);
+  }
+  return result;
+}
+
+void BlendHierarchy::build(
+  std::vector<std::pair<Box3, Term>>& items, std::size_t begin, std::size_t end)
+{
+  Box3 bounds;
+  Box3 centers;
+  for (std::size_t k = begin; k < end; ++k)
+  {
+    bounds.extend(items[k].first);
+    centers.extend(items[k].first.center());
+  }
+  const std::size_t index = groups_.size();
+  groups_.push_back({ this->rounded(bounds), static_cast<std::uint32_t>(terms_.size()), 0, 0 });
+  if (end - begin <= kGroupSize)
+  {
+    for (std::size_t k = begin; k < end; ++k)
+    {
+      terms_.push_back(items[k].second);
+    }
+    groups_[index].count = static_cast<std::uint32_t>(end - begin);
+  }
+  else
+  {
+    Eigen::Index axis = 0;
+    centers.sizes().maxCoeff(&axis);
+    const std::size_t middle = begin + (end - begin) / 2;
+    std::nth_element(items.begin() + begin, items.begin() + middle, items.begin() + end,
+      [&](const auto& a, const auto& b)
+      {
+        const double centerA = a.first.center()[axis];
+        const double centerB = b.first.center()[axis];
+        return centerA != centerB ? centerA < centerB : a.second.firstLeaf < b.second.firstLeaf;
+      });
+    this->build(items, begin, middle);
+    this->build(items, middle, end);
+  }
+  groups_[index].next = static_cast<std::uint32_t>(groups_.size());
+}
+
+} // namespace hybridtree

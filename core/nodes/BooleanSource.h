@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "core/nodes/BooleanField.h"
+#include "core/polygonize/FieldSource.h"
+
+namespace hybridtree
+{
+
+/// Boolean field function over two sources: what a Boolean node evaluates, whole or for a brick.
+class BooleanSource final : public FieldSource
+{
+public:
+  /// A null operand is a field of 0. \pre one is not null; form is not Automatic.
+  BooleanSource(BooleanOperation operation, BooleanForm form, FieldSourcePtr a, FieldSourcePtr b);
+
+  void field(PointBatch points, double* value) const override;
+  void fieldAndGradient(PointBatch points, double* value, VectorBatch gradient) const override;
+  Interval range(const Box3& box) const override;
+  FieldSourcePtr restrictedTo(const Box3& box) const override;
+
+private:
+  BooleanOperation operation_;
+  BooleanForm form_;
+  FieldSourcePtr a_;
+  FieldSourcePtr b_;
+};
+
+/// The Boolean of two sources that are already restricted to the box (null: 0), with every operand
+/// left out that cannot matter in it; null where it is 0 throughout.
+FieldSourcePtr booleanSource(BooleanOperation operation, BooleanForm form, FieldSourcePtr a,
+  FieldSourcePtr b, const Box3& box);
+
+///@{
+/// As the methods of FieldSource, for a source that may be null: a field of 0.
+void fieldOf(const FieldSource* source, PointBatch points, double* value);
+void fieldAndGradientOf(
+  const FieldSource* source, PointBatch points, double* value, VectorBatch gradient);
+Interval rangeOf(const FieldSource* source, const Box3& box);
+FieldSourcePtr restrictionOf(const FieldSource* source, const Box3& box);
+///@}
+
+} // namespace hybridtree

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/tree/NodeFactory.h"
+
+#include "core/base/Error.h"
+#include "core/nodes/Blend.h"
+#include "core/nodes/Boolean.h"
+#include "core/nodes/LocalBlend.h"
+#include "core/nodes/Primitive.h"
+
+namespace hybridtree
+{
+namespace
+{
+
+struct Kind
+{
+  const char* name;
+  NodeMaker make;
+};
+
+// One line per kind of node.
+constexpr Kind kKinds[] = {
+  { "primitive", primitiveFromParameters },
+  { "blend", blendFromParameters },
+  { "localBlend", localBlendFromParameters },
+  { "boolean", booleanFromParameters },
+};
+
+} // namespace
+
+NodePtr makeNode(const std::string& kind, const Parameters& parameters,
+  const std::vector<NodePtr>& children, const MeshLookup& lookup)
+{
+  for (const Kind& candidate : kKinds)
+  {
+    if (kind == candidate.name)
+    {
+      return candidate.make(parameters, children, lookup);
+    }
+  }
+  throw InvalidText("\"" + kind + "\" is not a kind of node that this version knows.");
+}
+
+std::vector<std::string> nodeKinds()
+{
+  std::vector<std::string> names;
+  for (const Kind& kind : kKinds)
+  {
+    names.emplace_back(kind.name);
+  }
+  return names;
+}
+
+} // namespace hybridtree
