@@ -1,0 +1,454 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/nodes/WarpMesh.h"
+
+#include "core/base/Error.h"
+#include "core/base/Parallel.h"
+#include "core/base/Scratch.h"
+#include "core/mesh/Remesh.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace hybridtree
+{
+namespace
+{
+
+constexpr std::size_t kGrain = 512;
+constexpr double kLongEdge = 4.0 / 3.0; // edge lengths, as in remeshStretched
+constexpr int kMaxRounds = 24;          // each halves every long edge
+constexpr int kNewtonSteps = 8;
+
+using Edge = std::array<std::int32_t, 2>;
+
+Edge edgeOf(const Triangle& triangle, int side)
+{
+  const std::int32_t a = triangle[side];
+  const std::int32_t b = triangle[(side + 1) % 3];
+  return { std::min(a, b), std::max(a, b) };
+}
+
+// Runs a batch function over points held as vectors, in parallel.
+void overBatches(std::vector<Vec3>& points, std::size_t begin,
+  const std::function<void(PointBatch, VectorBatch)>& map)
+{
+  parallelFor(points.size() - begin, kGrain,
+    [&](std::size_t from, std::size_t to)
+    {
+      ScratchVectors batch(to - from);
+      for (std::size_t k = from; k < to; ++k)
+      {
+        batch.batch().set(k - from, points[begin + k]);
+      }
+      map(batch.points(), batch.batch());
+      for (std::size_t k = from; k < to; ++k)
+      {
+        points[begin + k] = batch.batch()[k - from];
+      }
+    });
+}
+
+void mapForward(const SpaceWarp& warp, std::vector<Vec3>& points, std::size_t begin)
+{
+  overBatches(points, begin, [&](PointBatch from, VectorBatch to) { warp.forward(from, to); });
+}
+
+// J^-T n at each point, made unit again.
+void mapNormals(const SpaceWarp& warp, const std::vector<Vec3>& points, std::vector<Vec3>& normals)
+{
+  parallelFor(points.size(), kGrain,
+    [&](std::size_t begin, std::size_t end)
+    {
+      ScratchVectors place(end - begin);
+      ScratchVectors normal(end - begin);
+      for (std::size_t k = begin; k < end; ++k)
+      {
+        place.batch().set(k - begin, points[k]);
+        normal.batch().set(k - begin, normals[k]);
+      }
+      warp.pullBack(place.points(), normal.batch());
+      for (std::size_t k = begin; k < end; ++k)
+      {
+        normals[k] = normal.batch()[k - begin].stableNormalized();
+      }
+    });
+}
+
+// Splits the long edges of a mesh at their midpoints, where long is measured in the image under a
+// warp. Keeps track of where the corners of each triangle lie on their source triangle, which the
+// mesh itself only knows for one triangle around each point.
+class StretchRefiner
+{
+public:
+  StretchRefiner(TriangleMesh& mesh, const SpaceWarp& warp, double edgeLength, const Node& node)
+    : mesh_(mesh)
+    , warp_(warp)
+    , node_(node)
+    , edgeLength_(edgeLength)
+    , image_(mesh.points)
+    , leaf_(node.leafMesh())
+  {
+    mapForward(warp_, image_, 0);
+    this->requireCountable();
+    this->findCorners();
+  }
+
+  void run(const Progress& progress)
+  {
+    for (int round = 0; round < kMaxRounds; ++round)
+    {
+      progress.check();
+      const std::vector<Edge> edges = this->longEdges();
+      if (edges.empty())
+      {
+        return;
+      }
+      this->addMidpoints(edges);
+      this->splitTriangles(edges);
+    }
+  }
+
+  std::vector<Vec3> takeImage() { return std::move(image_); }
+
+private:
+  using Corners = std::array<Eigen::Vector2d, 3>;
+
+  void requireCountable() const
+  {
+    double twiceArea = 0.0;
+    for (const Triangle& t : mesh_.triangles)
+    {
+      twiceArea += (image_[t[1]] - image_[t[0]]).cross(image_[t[2]] - image_[t[0]]).norm();
+    }
+    const double estimate = twiceArea / (edgeLength_ * edgeLength_);
+    if (!(estimate < 1e8))
+    {
+      throw TooLarge("EdgeLength " + std::to_string(edgeLength_) + " would make about " +
+        std::to_string(estimate) + " triangles of the deformed mesh, more than 1e8; raise it.");
+    }
+  }
+
+  void findCorners()
+  {
+    if (mesh_.sourceTriangle.empty() || mesh_.vertexOrigin.empty())
+    {
+      return;
+    }
+    corners_.resize(mesh_.triangles.size());
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
+    {
+      for (int corner = 0; corner < 3; ++corner)
+      {
+        corners_[t][corner] = this->placeOn(mesh_.sourceTriangle[t], mesh_.triangles[t][corner]);
+      }
+    }
+  }
+
+  // Where a point lies on a source triangle, by weights of its second and third corner; NaN where
+  // the mesh does not tell.
+  Eigen::Vector2d placeOn(std::int32_t source, std::int32_t point) const
+  {
+    const VertexOrigin& origin = mesh_.vertexOrigin[point];
+    if (source >= 0 && origin.triangle == source)
+    {
+      return { origin.u, origin.v };
+    }
+    if (source >= 0 && leaf_ && leaf_->points.size() == mesh_.points.size())
+    {
+      const Triangle& corners = leaf_->triangles[source];
+      for (int corner = 0; corner < 3; ++corner)
+      {
+        if (corners[corner] == point)
+        {
+          return { corner == 1 ? 1.0 : 0.0, corner == 2 ? 1.0 : 0.0 };
+        }
+      }
+    }
+    return Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
+  }
+
+  std::vector<Edge> longEdges() const
+  {
+    const double limit = kLongEdge * edgeLength_;
+    std::vector<Edge> edges;
+    for (const Triangle& triangle : mesh_.triangles)
+    {
+      for (int side = 0; side < 3; ++side)
+      {
+        const Edge edge = edgeOf(triangle, side);
+        if ((image_[edge[0]] - image_[edge[1]]).squaredNorm() > limit * limit)
+        {
+          edges.push_back(edge);
+        }
+      }
+    }
+    std::sort(edges.begin(), edges.end());
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    return edges;
+  }
+
+  void addMidpoints(const std::vector<Edge>& edges)
+  {
+    const std::size_t first = mesh_.points.size();
+    std::vector<Vec3> points;
+    std::vector<Vec3> normals;
+    double longest = 0.0;
+    for (const Edge& edge : edges)
+    {
+      const Vec3& a = mesh_.points[edge[0]];
+      const Vec3& b = mesh_.points[edge[1]];
+      points.push_back(0.5 * (a + b));
+      longest = std::max(longest, (a - b).norm());
+      if (!mesh_.normals.empty())
+      {
+        normals.push_back((mesh_.normals[edge[0]] + mesh_.normals[edge[1]]).stableNormalized());
+      }
+    }
+    if (mesh_.sourceTriangle.empty()) // else they already are where they belong: on the leaf
+    {
+      projectOntoSurface(node_, 0.25 * longest, points, normals);
+    }
+    mesh_.points.insert(mesh_.points.end(), points.begin(), points.end());
+    mesh_.normals.insert(mesh_.normals.end(), normals.begin(), normals.end());
+    if (!mesh_.vertexOrigin.empty())
+    {
+      mesh_.vertexOrigin.resize(mesh_.points.size());
+    }
+    image_.insert(image_.end(), points.begin(), points.end());
+    mapForward(warp_, image_, first);
+  }
+
+  void splitTriangles(const std::vector<Edge>& edges)
+  {
+    const std::int32_t first = static_cast<std::int32_t>(mesh_.points.size() - edges.size());
+    const std::size_t count = mesh_.triangles.size();
+    for (std::size_t t = 0; t < count; ++t)
+    {
+      std::array<std::int32_t, 3> middle{ -1, -1, -1 };
+      for (int side = 0; side < 3; ++side)
+      {
+        const Edge edge = edgeOf(mesh_.triangles[t], side);
+        const auto found = std::lower_bound(edges.begin(), edges.end(), edge);
+        if (found != edges.end() && *found == edge)
+        {
+          middle[side] = first + static_cast<std::int32_t>(found - edges.begin());
+        }
+      }
+      this->splitTriangle(t, middle);
+    }
+  }
+
+  // Corners 0 to 2 of a split triangle are its own, 3 to 5 the midpoints of its sides.
+  void splitTriangle(std::size_t t, const std::array<std::int32_t, 3>& middle)
+  {
+    const Triangle corner = mesh_.triangles[t];
+    const std::array<std::int32_t, 6> point{ corner[0], corner[1], corner[2], middle[0], middle[1],
+      middle[2] };
+    std::array<Eigen::Vector2d, 6> place;
+    if (!corners_.empty())
+    {
+      for (int side = 0; side < 3; ++side)
+      {
+        place[side] = corners_[t][side];
+        place[3 + side] = 0.5 * (corners_[t][side] + corners_[t][(side + 1) % 3]);
+        this->recordOrigin(t, middle[side], place[3 + side]);
+      }
+    }
+    bool replaced = false;
+    for (const std::array<int, 3>& part : this->pattern(point))
+    {
+      const Triangle made{ point[part[0]], point[part[1]], point[part[2]] };
+      const Corners places{ place[part[0]], place[part[1]], place[part[2]] };
+      replaced ? this->appendTriangle(t, made, places) : this->replaceTriangle(t, made, places);
+      replaced = true;
+    }
+  }
+
+  // The triangles that cover one whose sides with a midpoint >= 0 are split.
+  std::vector<std::array<int, 3>> pattern(const std::array<std::int32_t, 6>& point) const
+  {
+    const int split = (point[3] >= 0) + (point[4] >= 0) + (point[5] >= 0);
+    if (split == 0)
+    {
+      return { { 0, 1, 2 } };
+    }
+    if (split == 3)
+    {
+      return { { 3, 4, 5 }, { 0, 3, 5 }, { 3, 1, 4 }, { 5, 4, 2 } };
+    }
+    for (int a = 0; a < 3; ++a)
+    {
+      const int b = (a + 1) % 3;
+      const int c = (a + 2) % 3;
+      if (split == 1 && point[3 + a] >= 0)
+      {
+        return { { a, 3 + a, c }, { 3 + a, b, c } };
+      }
+      if (split == 2 && point[3 + c] < 0) // sides ab and bc are split: corner b comes off
+      {
+        const bool fromA = (image_[point[a]] - image_[point[3 + b]]).squaredNorm() <
+          (image_[point[c]] - image_[point[3 + a]]).squaredNorm();
+        return fromA ? std::vector<std::array<int, 3>>{ { 3 + a, b, 3 + b }, { a, 3 + a, 3 + b },
+          { a, 3 + b, c } }
+                     : std::vector<std::array<int, 3>>{ { 3 + a, b, 3 + b }, { a, 3 + a, c },
+                         { 3 + a, 3 + b, c } };
+      }
+    }
+    return {};
+  }
+
+  void recordOrigin(std::size_t t, std::int32_t point, const Eigen::Vector2d& place)
+  {
+    if (point < 0 || !place.allFinite())
+    {
+      return;
+    }
+    VertexOrigin& origin = mesh_.vertexOrigin[point];
+    if (origin.leaf < 0)
+    {
+      origin = { mesh_.sourceLeaf.empty() ? 0 : mesh_.sourceLeaf[t], mesh_.sourceTriangle[t],
+        place[0], place[1] };
+    }
+  }
+
+  void replaceTriangle(std::size_t t, const Triangle& made, const Corners& places)
+  {
+    mesh_.triangles[t] = made;
+    if (!corners_.empty())
+    {
+      corners_[t] = places;
+    }
+  }
+
+  void appendTriangle(std::size_t t, const Triangle& made, const Corners& places)
+  {
+    mesh_.triangles.push_back(made);
+    if (!corners_.empty())
+    {
+      corners_.push_back(places);
+    }
+    for (std::vector<std::int32_t>* source : { &mesh_.sourceLeaf, &mesh_.sourceTriangle })
+    {
+      if (!source->empty())
+      {
+        const std::int32_t value = (*source)[t];
+        source->push_back(value);
+      }
+    }
+  }
+
+  TriangleMesh& mesh_;
+  const SpaceWarp& warp_;
+  const Node& node_;
+  double edgeLength_;
+  std::vector<Vec3> image_;
+  MeshPtr leaf_;
+  std::vector<Corners> corners_; // per triangle, empty without provenance
+};
+
+void turnInsideOut(TriangleMesh& mesh)
+{
+  for (Triangle& triangle : mesh.triangles)
+  {
+    std::swap(triangle[1], triangle[2]);
+  }
+}
+
+// One Newton step for every point of a batch that is not yet on the surface.
+void newtonStep(const FieldSource& field, PointBatch points, VectorBatch moved)
+{
+  ScratchArray value(points.size);
+  ScratchVectors gradient(points.size);
+  field.fieldAndGradient(points, value.data(), gradient.batch());
+  for (std::size_t k = 0; k < points.size; ++k)
+  {
+    const Vec3 g = gradient.batch()[k];
+    const double squared = g.squaredNorm();
+    const Vec3 step = squared > 0.0 ? Vec3(g * ((kThreshold - value[k]) / squared)) : Vec3::Zero();
+    moved.set(k, points[k] + (step.allFinite() ? step : Vec3::Zero()));
+  }
+}
+
+} // namespace
+
+void projectOntoSurface(
+  const FieldSource& field, double reach, std::vector<Vec3>& points, std::vector<Vec3>& normals)
+{
+  std::vector<Vec3> moved = points;
+  for (int step = 0; step < kNewtonSteps; ++step)
+  {
+    overBatches(moved, 0, [&](PointBatch from, VectorBatch to) { newtonStep(field, from, to); });
+  }
+  parallelFor(points.size(), kGrain,
+    [&](std::size_t begin, std::size_t end)
+    {
+      ScratchVectors place(end - begin);
+      ScratchVectors gradient(end - begin);
+      ScratchArray value(end - begin);
+      for (std::size_t k = begin; k < end; ++k)
+      {
+        const bool near = (moved[k] - points[k]).norm() <= reach;
+        place.batch().set(k - begin, near ? moved[k] : points[k]);
+      }
+      field.fieldAndGradient(place.points(), value.data(), gradient.batch());
+      for (std::size_t k = begin; k < end; ++k)
+      {
+        const Vec3 g = gradient.batch()[k - begin];
+        if (std::abs(value[k - begin] - kThreshold) <= 1e-6 + 1e-3 * reach * g.norm())
+        {
+          points[k] = place.batch()[k - begin];
+          if (!normals.empty() && g.norm() > 0.0)
+          {
+            normals[k] = -g.stableNormalized();
+          }
+        }
+      }
+    });
+}
+
+std::vector<Vec3> pointNormals(const TriangleMesh& mesh)
+{
+  std::vector<Vec3> normals(mesh.points.size(), Vec3::Zero());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+  {
+    const Vec3 normal = areaNormal(mesh, t);
+    for (const std::int32_t point : mesh.triangles[t])
+    {
+      normals[point] += normal;
+    }
+  }
+  for (Vec3& normal : normals)
+  {
+    normal.stableNormalize();
+  }
+  return normals;
+}
+
+TriangleMesh warpedMesh(const TriangleMesh& mesh, const SpaceWarp& warp, double edgeLength,
+  const Node& node, const Progress& progress)
+{
+  TriangleMesh result = mesh;
+  StretchRefiner refiner(result, warp, edgeLength, node);
+  refiner.run(progress);
+  const double volume = signedVolume(result);
+  if (!result.normals.empty())
+  {
+    mapNormals(warp, result.points, result.normals);
+  }
+  result.points = refiner.takeImage();
+  if (volume * signedVolume(result) < 0.0)
+  {
+    turnInsideOut(result);
+  }
+  RemeshOptions options;
+  options.edgeLength = edgeLength;
+  remeshStretched(result, options, nullptr, progress);
+  if (result.normals.size() != result.points.size())
+  {
+    result.normals = pointNormals(result);
+  }
+  return result;
+}
+
+} // namespace hybridtree

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "core/base/Progress.h"
+#include "core/mesh/TriangleMesh.h"
+#include "core/nodes/Node.h"
+#include "core/nodes/SpaceWarp.h"
+
+namespace hybridtree
+{
+
+/// The image of a mesh under a warp ([HT] 5.4), with triangles of good shape.
+///
+/// Edges whose image is longer than 4/3 edgeLength are first split where they are, so that the
+/// new points are exact: midpoints on triangles of a mesh leaf stay on them, others are moved onto
+/// f = T of the node. Then the points are mapped, squeezed triangles collapsed and slivers flipped
+/// (remeshStretched). Normals are J^-T n, or those of the triangles where the mesh has none.
+/// Provenance (sourceLeaf, sourceTriangle, vertexOrigin) follows. Orientation stays outward also
+/// when the warp mirrors.
+///
+/// \param mesh of `node`.
+/// \throws TooLarge when the edge length asks for more triangles than indices can count; Cancelled.
+TriangleMesh warpedMesh(const TriangleMesh& mesh, const SpaceWarp& warp, double edgeLength,
+  const Node& node, const Progress& progress = Progress::none());
+
+/// Moves points onto f = T by Newton steps along the gradient, each by no more than `reach` in all;
+/// a point that does not get there stays where it was. Normals become -grad f / |grad f| at those
+/// that did.
+void projectOntoSurface(
+  const FieldSource& field, double reach, std::vector<Vec3>& points, std::vector<Vec3>& normals);
+
+/// Area-weighted unit normals of the points, from the triangles around them.
+std::vector<Vec3> pointNormals(const TriangleMesh& mesh);
+
+} // namespace hybridtree
