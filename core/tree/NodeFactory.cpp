@@ -5,6 +5,7 @@
 #include "core/nodes/Blend.h"
 #include "core/nodes/Boolean.h"
 #include "core/nodes/LocalBlend.h"
+#include "core/nodes/MeshNode.h"
 #include "core/nodes/Primitive.h"
 
 namespace hybridtree
@@ -21,6 +22,7 @@ struct Kind
 // One line per kind of node.
 constexpr Kind kKinds[] = {
   { "primitive", primitiveFromParameters },
+  { "mesh", meshFromParameters },
   { "blend", blendFromParameters },
   { "localBlend", localBlendFromParameters },
   { "boolean", booleanFromParameters },

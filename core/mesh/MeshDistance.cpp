@@ -1,0 +1,357 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/mesh/MeshDistance.h"
+
+#include "core/base/Error.h"
+#include "core/base/Parallel.h"
+#include "core/geometry/PointTriangle.h"
+#include "core/mesh/MeshBvh.h"
+#include "core/mesh/MeshSide.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <mutex>
+#include <unordered_map>
+
+namespace hybridtree
+{
+namespace
+{
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t kParallelGrain = 1024;
+constexpr std::size_t kMostRoots = 128;
+
+struct Hit
+{
+  double squared = kInfinity;
+  std::int32_t triangle = -1;
+  NearestOnTriangle nearest{};
+};
+
+struct Entry
+{
+  double squared;
+  std::uint32_t ref;
+};
+
+double squaredDistance(
+  const MeshBvh::Node& node, std::size_t k, const Vec3& lower, const Vec3& upper)
+{
+  double sum = 0.0;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double below = double(node.lower[axis][k]) - upper[axis];
+    const double above = lower[axis] - double(node.upper[axis][k]);
+    const double gap = std::max({ below, above, 0.0 });
+    sum += gap * gap;
+  }
+  return sum;
+}
+
+class Search
+{
+public:
+  Search(const TriangleMesh& mesh, const MeshBvh& bvh) : mesh_(mesh), bvh_(bvh) {}
+
+  Hit nearest(const Vec3& p, double maxDistance, const MeshPart* part)
+  {
+    Hit hit;
+    hit.squared = maxDistance * maxDistance;
+    const Vec3 local = bvh_.toLocal(p);
+    stack_.clear();
+    if (part)
+    {
+      for (std::size_t k = part->roots.size(); k-- > 0;)
+      {
+        stack_.push_back({ 0.0, part->roots[k] });
+      }
+    }
+    else
+    {
+      stack_.push_back({ 0.0, 0 });
+    }
+    const double squaredScale = bvh_.scale() * bvh_.scale();
+    while (!stack_.empty())
+    {
+      const Entry entry = stack_.back();
+      stack_.pop_back();
+      if (entry.squared * (1.0 - 1e-6) > hit.squared * squaredScale)
+      {
+        continue;
+      }
+      if (entry.ref & MeshBvh::kLeafBit)
+      {
+        this->visitLeaf(bvh_.leaves()[entry.ref & ~MeshBvh::kLeafBit], p, hit);
+        continue;
+      }
+      const std::size_t first = stack_.size();
+      const MeshBvh::Node& node = bvh_.nodes()[entry.ref];
+      for (std::size_t k = 0; k < MeshBvh::kWidth && node.child[k] != MeshBvh::kNone; ++k)
+      {
+        stack_.push_back({ squaredDistance(node, k, local, local), node.child[k] });
+      }
+      std::sort(stack_.begin() + std::ptrdiff_t(first), stack_.end(),
+        [](const Entry& a, const Entry& b) { return a.squared > b.squared; });
+    }
+    return hit;
+  }
+
+private:
+  void visitLeaf(const MeshBvh::Leaf& leaf, const Vec3& p, Hit& hit) const
+  {
+    for (std::size_t j = 0; j < leaf.count; ++j)
+    {
+      const Triangle& c = mesh_.triangles[std::size_t(leaf.triangle[j])];
+      const NearestOnTriangle nearest = nearestOnTriangle(p, mesh_.points[std::size_t(c[0])],
+        mesh_.points[std::size_t(c[1])], mesh_.points[std::size_t(c[2])]);
+      if (nearest.squaredDistance < hit.squared ||
+        (hit.triangle < 0 && nearest.squaredDistance <= hit.squared))
+      {
+        hit = { nearest.squaredDistance, leaf.triangle[j], nearest };
+      }
+    }
+  }
+
+  const TriangleMesh& mesh_;
+  const MeshBvh& bvh_;
+  std::vector<Entry> stack_;
+};
+
+} // namespace
+
+MeshDistance::MeshDistance(MeshPtr mesh) : mesh_(std::move(mesh))
+{
+  if (!mesh_ || mesh_->empty())
+  {
+    throw InvalidGeometry("The mesh has no triangles: there is nothing to measure a distance to.");
+  }
+  bounds_ = mesh_->bounds();
+  bvh_ = std::make_unique<const MeshBvh>(*mesh_);
+  side_ = std::make_unique<const MeshSide>(*mesh_, *bvh_);
+}
+
+MeshDistance::~MeshDistance() = default;
+
+void MeshDistance::distance(
+  PointBatch points, double maxDistance, double* distance, const MeshPart* part) const
+{
+  parallelFor(points.size, kParallelGrain,
+    [&](std::size_t begin, std::size_t end)
+    {
+      Search search(*mesh_, *bvh_);
+      for (std::size_t k = begin; k < end; ++k)
+      {
+        const Hit hit = search.nearest(points[k], maxDistance, part);
+        distance[k] = hit.triangle < 0 ? kInfinity : std::sqrt(hit.squared);
+      }
+    });
+}
+
+void MeshDistance::nearest(PointBatch points, double maxDistance, double* distance,
+  std::int32_t* triangle, VectorBatch nearestPoint, const MeshPart* part) const
+{
+  parallelFor(points.size, kParallelGrain,
+    [&](std::size_t begin, std::size_t end)
+    {
+      Search search(*mesh_, *bvh_);
+      for (std::size_t k = begin; k < end; ++k)
+      {
+        const Hit hit = search.nearest(points[k], maxDistance, part);
+        const bool found = hit.triangle >= 0;
+        distance[k] = found ? std::sqrt(hit.squared) : kInfinity;
+        triangle[k] = hit.triangle;
+        nearestPoint.set(k, found ? hit.nearest.point : Vec3(kNaN, kNaN, kNaN));
+      }
+    });
+}
+
+void MeshDistance::signedDistance(PointBatch points, double maxDistance, double* distance,
+  VectorBatch gradient, const MeshPart* part) const
+{
+  parallelFor(points.size, kParallelGrain,
+    [&](std::size_t begin, std::size_t end)
+    {
+      Search search(*mesh_, *bvh_);
+      for (std::size_t k = begin; k < end; ++k)
+      {
+        const Vec3 p = points[k];
+        const Hit hit = search.nearest(p, maxDistance, part);
+        Vec3 direction = Vec3::Zero();
+        if (hit.triangle < 0)
+        {
+          distance[k] = side_->side(p) > 0 ? -kInfinity : kInfinity;
+        }
+        else
+        {
+          const int side = side_->side(p, hit.triangle, hit.nearest);
+          const double length = std::sqrt(hit.squared);
+          distance[k] = side > 0 ? -length : side < 0 ? length : 0.0;
+          direction = side_->gradient(p, side, hit.triangle, hit.nearest);
+        }
+        if (gradient.x)
+        {
+          gradient.set(k, direction);
+        }
+      }
+    });
+}
+
+void MeshDistance::side(PointBatch points, std::int8_t* side) const
+{
+  parallelFor(points.size, kParallelGrain,
+    [&](std::size_t begin, std::size_t end)
+    {
+      Search search(*mesh_, *bvh_);
+      for (std::size_t k = begin; k < end; ++k)
+      {
+        const Vec3 p = points[k];
+        if (this->isClosed() && !bounds_.contains(p))
+        {
+          side[k] = -1;
+          continue;
+        }
+        const Hit hit = search.nearest(p, kInfinity, nullptr);
+        side[k] = std::int8_t(side_->side(p, hit.triangle, hit.nearest));
+      }
+    });
+}
+
+Interval MeshDistance::range(const Box3& box) const
+{
+  const Vec3 center = box.center();
+  const double half = 0.5 * box.diagonal().norm();
+  const double middle =
+    std::sqrt(Search(*mesh_, *bvh_).nearest(center, kInfinity, nullptr).squared);
+  const double slack = 1e-12 * (middle + half);
+  return { std::max(0.0, middle - half - slack), middle + half + slack };
+}
+
+Interval MeshDistance::signedRange(const Box3& box) const
+{
+  const Vec3 center = box.center();
+  const double half = 0.5 * box.diagonal().norm();
+  const Hit hit = Search(*mesh_, *bvh_).nearest(center, kInfinity, nullptr);
+  const double middle = std::sqrt(hit.squared);
+  const double reach = half + 1e-12 * (middle + half);
+  bool oneSide = this->isClosed();
+  bool inside = false;
+  if (oneSide)
+  {
+    inside = side_->side(center, hit.triangle, hit.nearest) > 0;
+  }
+  else if (middle > reach)
+  {
+    const double winding = side_->windingNumber(center);
+    inside = winding > 0.5;
+    // The far-field expansion answers to about 1e-2.
+    oneSide = std::abs(winding - 0.5) > reach * side_->windingSlope(middle - reach) + 0.02;
+  }
+  if (!oneSide)
+  {
+    return { -middle - reach, middle + reach };
+  }
+  const double signedMiddle = inside ? -middle : middle;
+  return { signedMiddle - reach, signedMiddle + reach };
+}
+
+MeshPart MeshDistance::restrictedTo(const Box3& box, double maxDistance) const
+{
+  const double limit = std::min(maxDistance, this->range(box).max) * bvh_->scale() * (1.0 + 1e-6);
+  const Vec3 lower = bvh_->toLocal(box.min());
+  const Vec3 upper = bvh_->toLocal(box.max());
+  const double margin =
+    1e-6 * (1.0 + std::max(lower.cwiseAbs().maxCoeff(), upper.cwiseAbs().maxCoeff()));
+  const double squaredLimit = (limit + margin) * (limit + margin);
+  std::vector<Entry> open{ { 0.0, 0 } };
+  std::vector<Entry> leaves;
+  // Breadth first, so that a box far away, to which much is almost equally near, stays cheap.
+  for (std::size_t next = 0; next < open.size(); ++next)
+  {
+    if (leaves.size() + (open.size() - next) > kMostRoots)
+    {
+      leaves.insert(leaves.end(), open.begin() + std::ptrdiff_t(next), open.end());
+      break;
+    }
+    const MeshBvh::Node& node = bvh_->nodes()[open[next].ref];
+    for (std::size_t k = 0; k < MeshBvh::kWidth && node.child[k] != MeshBvh::kNone; ++k)
+    {
+      const double squared = squaredDistance(node, k, lower, upper);
+      if (squared <= squaredLimit)
+      {
+        (node.child[k] & MeshBvh::kLeafBit ? leaves : open).push_back({ squared, node.child[k] });
+      }
+    }
+  }
+  std::sort(leaves.begin(), leaves.end(),
+    [](const Entry& a, const Entry& b) { return a.squared < b.squared; });
+  MeshPart part;
+  for (const Entry& entry : leaves)
+  {
+    part.roots.push_back(entry.ref);
+  }
+  return part;
+}
+
+bool MeshDistance::isClosed() const
+{
+  return side_->isClosed();
+}
+
+const std::vector<Vec3>& MeshDistance::vertexNormals() const
+{
+  return side_->vertexNormals();
+}
+
+std::vector<std::string> MeshDistance::warnings() const
+{
+  if (this->isClosed())
+  {
+    return {};
+  }
+  const HalfEdges& edges = side_->edges();
+  return { "The mesh is not a closed surface (" + std::to_string(edges.openEdges) +
+    " open edges, " + std::to_string(edges.nonManifoldEdges) +
+    " edges of more than two triangles, " + std::to_string(edges.flippedEdges) +
+    " edges whose triangles disagree): its inside is found by the winding number, and the field "
+    "jumps across the holes." };
+}
+
+std::shared_ptr<const MeshDistance> sharedMeshDistance(const MeshPtr& mesh)
+{
+  struct Kept
+  {
+    std::mutex mutex; // held while building: who wants the same hierarchy waits for it
+    std::weak_ptr<const TriangleMesh> mesh;
+    std::weak_ptr<const MeshDistance> distance;
+  };
+  static std::mutex mutex;
+  static std::unordered_map<const TriangleMesh*, std::shared_ptr<Kept>> cache;
+
+  std::shared_ptr<Kept> kept;
+  {
+    const std::lock_guard<std::mutex> lock(mutex);
+    for (auto entry = cache.begin(); entry != cache.end();)
+    {
+      entry = entry->second->mesh.expired() ? cache.erase(entry) : std::next(entry);
+    }
+    std::shared_ptr<Kept>& slot = cache[mesh.get()];
+    if (!slot)
+    {
+      slot = std::make_shared<Kept>();
+      slot->mesh = mesh;
+    }
+    kept = slot;
+  }
+  const std::lock_guard<std::mutex> lock(kept->mutex);
+  std::shared_ptr<const MeshDistance> distance = kept->distance.lock();
+  if (!distance)
+  {
+    distance = std::make_shared<const MeshDistance>(mesh);
+    kept->distance = distance;
+  }
+  return distance;
+}
+
+} // namespace hybridtree
