@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Every #include of a room is one that the room may have (docs/architecture.md, Rooms)."""
+import pathlib
+import re
+import sys
+
+STANDARD = r"[a-z_0-9]+"  # <vector>, <cmath>: no slash, no dot
+CORE_LIBRARIES = [STANDARD, r"Eigen/.*"]
+
+
+def core(*rooms, extra=()):
+    return CORE_LIBRARIES + [rf"core/{room}/.*" for room in rooms] + list(extra)
+
+
+BELOW_NODES = ("base", "geometry", "mesh", "skeletons", "polygonize")
+SIMD = (r"hwy/.*", r"core/[a-z]+/[A-Za-z]+\.cpp")  # Highway compiles a source once per target
+# What VTK calls itself, without ParaView's own classes.
+VTK = [r"vtk(?!PV|SM|SI)[A-Za-z0-9]+\.h", r"HybridTree[A-Za-z]+Module\.h"]
+
+ALLOWED = {
+    "core/base": core("base", extra=(r"tbb/.*", r"oneapi/.*")),
+    "core/geometry": core("base", "geometry", extra=SIMD),
+    "core/mesh": core("base", "geometry", "mesh", extra=SIMD),
+    "core/skeletons": core("base", "geometry", "mesh", "skeletons", extra=SIMD),
+    "core/polygonize": core("base", "geometry", "mesh", "polygonize", extra=SIMD),
+    "core/nodes": core(*BELOW_NODES, "nodes", extra=SIMD),
+    "core/tree": core(*BELOW_NODES, "nodes", "tree", extra=(r"nlohmann/.*",)),
+    "filters": [STANDARD, r"core/.*", r"filters/.*", *VTK],
+    # No pcl/surface, pcl/io or pcl/visualization: they bring a second VTK.
+    "reconstruction": [STANDARD, r"Eigen/.*", r"core/.*", r"filters/.*", r"reconstruction/.*", r"CGAL/.*",
+        r"boost/.*", r"pcl/(common|features|filters|kdtree|octree|search|sample_consensus)/.*", r"pcl/[a-z_]+\.h",
+        *VTK],
+}
+
+
+def main(root):
+    count = 0
+    wrong = []
+    for room, patterns in ALLOWED.items():
+        for source in sorted(root.glob(f"{room}/**/*")):
+            if source.suffix not in (".h", ".cpp", ".cxx", ".hpp"):
+                continue
+            for number, line in enumerate(source.read_text().splitlines(), 1):
+                match = re.match(r'\s*#\s*include\s*[<"]([^>"]+)[>"]', line)
+                if not match:
+                    continue
+                count += 1
+                if not any(re.fullmatch(pattern, match.group(1)) for pattern in patterns):
+                    wrong.append(f"{source.relative_to(root)}:{number}: {room} may not include {match.group(1)}")
+    print("\n".join(wrong) or f"{count} includes, all allowed")
+    return 1 if wrong or count == 0 else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(pathlib.Path(sys.argv[1])))
