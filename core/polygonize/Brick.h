@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "core/polygonize/BrickTree.h"
+
+#include <array>
+#include <vector>
+
+namespace hybridtree
+{
+
+inline constexpr int kBrickPoints = kBrickSide * kBrickSide * kBrickSide;
+
+/// One bit for each of a brick's 8^3 points: bit 8 y + x of word z.
+using BrickBits = std::array<std::uint64_t, kBrickSide>;
+
+/// What polygonize() knows of one crossed brick.
+struct Brick
+{
+  Index3 index{};
+  BrickBits inside{};
+  std::array<BrickBits, 3> crossed{}; ///< [axis]: the edge from a point along the axis has a vertex
+  std::array<std::array<std::uint16_t, kBrickSide>, 3>
+    rank{}; ///< vertices before a word of `crossed`
+  /// Contents of the bricks at offset (n & 1, n >> 1 & 1, n >> 2 & 1); [0] is this one.
+  std::array<BrickTree::Content, 8> neighbours{};
+  std::uint32_t vertexCount = 0;
+  std::uint32_t triangleCount = 0;
+  std::uint32_t firstVertex = 0; ///< in the mesh
+  std::uint32_t firstTriangle = 0;
+
+  /// Number within the brick of the vertex on a crossed edge.
+  std::uint32_t vertexRank(unsigned axis, unsigned x, unsigned y, unsigned z) const;
+  /// Fills rank and vertexCount from crossed.
+  void countVertices();
+};
+
+/// Sides of all corners of a brick's cells: bit x of rows[z][y], x, y, z <= 8.
+struct CornerSigns
+{
+  std::uint16_t rows[kBrickSide + 1][kBrickSide + 1];
+
+  bool uniform() const;
+  void findCrossedEdges(std::array<BrickBits, 3>& crossed) const;
+  /// Bit c of the case of cell (x, y, z): corner c is inside.
+  unsigned cellCase(unsigned x, unsigned y, unsigned z) const;
+  /// Every corner of the cells in row (y, z) is on one side.
+  bool uniformRow(unsigned y, unsigned z) const;
+};
+
+/// \param contents as Brick::neighbours; the bits of those >= 0 are in `bricks`.
+CornerSigns gatherSigns(
+  const std::array<BrickTree::Content, 8>& contents, const std::vector<Brick>& bricks);
+
+} // namespace hybridtree
