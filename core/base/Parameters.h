@@ -21,8 +21,14 @@ public:
     std::vector<std::int64_t>>;
 
   void set(const std::string& name, Value value);
+  ///@{
+  /// Each type has its own form: left to conversions, a real would become an integer.
   void set(const std::string& name, const char* value) { set(name, Value(std::string(value))); }
+  void set(const std::string& name, bool value) { set(name, Value(value)); }
   void set(const std::string& name, int value) { set(name, Value(std::int64_t(value))); }
+  void set(const std::string& name, std::int64_t value) { set(name, Value(value)); }
+  void set(const std::string& name, double value) { set(name, Value(value)); }
+  ///@}
   void set(const std::string& name, const Vec3& value);
   /// The 3 x 4 matrix, row by row.
   void set(const std::string& name, const Affine3& value);
@@ -30,8 +36,8 @@ public:
   bool has(const std::string& name) const;
 
   ///@{
-  /// \throws InvalidText when the name is absent, or its value of another type or length. An integer
-  /// serves where a real is asked for.
+  /// \throws InvalidText when the name is absent, or its value of another type or length. An
+  /// integer serves where a real is asked for.
   bool getBool(const std::string& name) const;
   int getInt(const std::string& name) const;
   double getDouble(const std::string& name) const;
