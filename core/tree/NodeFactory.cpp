@@ -6,6 +6,7 @@
 #include "core/nodes/Boolean.h"
 #include "core/nodes/LocalBlend.h"
 #include "core/nodes/MeshNode.h"
+#include "core/nodes/MeshNode.h"
 #include "core/nodes/Primitive.h"
 
 namespace hybridtree
@@ -22,6 +23,7 @@ struct Kind
 // One line per kind of node.
 constexpr Kind kKinds[] = {
   { "primitive", primitiveFromParameters },
+  { "mesh", meshFromParameters },
   { "mesh", meshFromParameters },
   { "blend", blendFromParameters },
   { "localBlend", localBlendFromParameters },
