@@ -42,7 +42,7 @@ HWY_INLINE V squaredNorm(V x, V y, V z)
 
 struct PointMath
 {
-  const PointShape& shape;
+  const PointShape shape;
 
   HWY_INLINE void offset(V& x, V& y, V& z) const
   {
@@ -60,7 +60,7 @@ struct PointMath
 
 struct SegmentMath
 {
-  const SegmentShape& shape;
+  const SegmentShape shape;
 
   HWY_INLINE void offset(V& x, V& y, V& z) const
   {
@@ -82,7 +82,7 @@ struct SegmentMath
 
 struct CircleMath
 {
-  const CircleShape& shape;
+  const CircleShape shape;
 
   HWY_INLINE void offset(V& x, V& y, V& z) const
   {
@@ -123,7 +123,7 @@ struct CircleMath
 
 struct BoxMath
 {
-  const BoxShape& shape;
+  const BoxShape shape;
 
   // Coordinates along the box's own axes.
   HWY_INLINE void toLocal(V& x, V& y, V& z) const
@@ -209,7 +209,9 @@ HWY_INLINE V rest(const Falloff& falloff, V squared)
     hn::Zero(D()), hn::NegMulAdd(squared, set(falloff.inverseSquaredRadius), set(1.0)));
 }
 
-// The loop bodies: each handles one vector of points at x, y, z and its `out` arrays.
+// The loop bodies hold copies, which the compiler may keep in registers: what a reference names
+// could be overwritten by the output as far as it knows. Each handles one vector of points at x, y,
+// z and its `out` arrays.
 
 template <class Math>
 struct DistanceBody
@@ -262,7 +264,7 @@ template <class Math, int Exponent>
 struct AddFalloffBody
 {
   Math math;
-  const Falloff& falloff;
+  const Falloff falloff;
   HWY_INLINE void operator()(
     const double* x, const double* y, const double* z, const std::array<double*, 1>& out) const
   {
@@ -277,7 +279,7 @@ template <class Math, int Exponent>
 struct AddFalloffWithGradientBody
 {
   Math math;
-  const Falloff& falloff;
+  const Falloff falloff;
   HWY_INLINE void operator()(
     const double* px, const double* py, const double* pz, const std::array<double*, 4>& out) const
   {
@@ -418,7 +420,7 @@ const SkeletonKernels<BoxShape>* boxKernels()
 
 struct FalloffBody
 {
-  const Falloff& falloff;
+  const Falloff falloff;
   HWY_INLINE void operator()(
     const double* x, const double*, const double*, const std::array<double*, 1>& out) const
   {
@@ -431,7 +433,7 @@ struct FalloffBody
 
 struct FalloffWithSlopeBody
 {
-  const Falloff& falloff;
+  const Falloff falloff;
   HWY_INLINE void operator()(
     const double* x, const double*, const double*, const std::array<double*, 2>& out) const
   {
