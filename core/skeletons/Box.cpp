@@ -3,6 +3,7 @@
 
 #include "core/base/Error.h"
 #include "core/skeletons/DistanceRange.h"
+#include "core/skeletons/OffsetMesh.h"
 #include "core/skeletons/Validate.h"
 
 namespace hybridtree
@@ -38,9 +39,14 @@ Box3 BoxSkeleton::bounds() const
   return Box3(Vec3(shape_.center - half), Vec3(shape_.center + half));
 }
 
-std::optional<TriangleMesh> BoxSkeleton::offsetMesh(double, double) const
+std::optional<TriangleMesh> BoxSkeleton::offsetMesh(double radius, double edgeLength) const
 {
-  return std::nullopt;
+  if (radius > 0.0)
+  {
+    return meshRoundedBox(shape_, radius, edgeLength);
+  }
+  // Flat, it encloses nothing.
+  return shape_.half.minCoeff() > 0.0 ? meshSharpBox(shape_, edgeLength) : TriangleMesh();
 }
 
 SkeletonPtr BoxSkeleton::similarityImage(const Affine3& map, double scale) const

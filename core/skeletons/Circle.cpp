@@ -2,6 +2,7 @@
 #include "core/skeletons/Circle.h"
 
 #include "core/skeletons/DistanceRange.h"
+#include "core/skeletons/OffsetMesh.h"
 #include "core/skeletons/Validate.h"
 
 #include <algorithm>
@@ -72,9 +73,17 @@ Box3 CircleSkeleton::bounds() const
   return Box3(Vec3(shape_.center - half), Vec3(shape_.center + half));
 }
 
-std::optional<TriangleMesh> CircleSkeleton::offsetMesh(double, double) const
+std::optional<TriangleMesh> CircleSkeleton::offsetMesh(double offset, double edgeLength) const
 {
-  return std::nullopt;
+  if (shape_.radius == 0.0)
+  {
+    return meshRoundedBox({ shape_.center, Mat3::Identity(), Vec3::Zero() }, offset, edgeLength);
+  }
+  if (offset >= shape_.radius)
+  {
+    return std::nullopt;
+  }
+  return meshTorus(shape_, offset, edgeLength);
 }
 
 SkeletonPtr CircleSkeleton::similarityImage(const Affine3& map, double scale) const

@@ -2,6 +2,7 @@
 #include "core/skeletons/Point.h"
 
 #include "core/skeletons/DistanceRange.h"
+#include "core/skeletons/OffsetMesh.h"
 #include "core/skeletons/Validate.h"
 
 namespace hybridtree
@@ -26,9 +27,9 @@ Box3 PointSkeleton::bounds() const
   return Box3(shape_.center);
 }
 
-std::optional<TriangleMesh> PointSkeleton::offsetMesh(double, double) const
+std::optional<TriangleMesh> PointSkeleton::offsetMesh(double radius, double edgeLength) const
 {
-  return std::nullopt;
+  return meshRoundedBox({ shape_.center, Mat3::Identity(), Vec3::Zero() }, radius, edgeLength);
 }
 
 SkeletonPtr PointSkeleton::similarityImage(const Affine3& map, double) const

@@ -2,6 +2,7 @@
 #include "core/skeletons/Segment.h"
 
 #include "core/skeletons/DistanceRange.h"
+#include "core/skeletons/OffsetMesh.h"
 #include "core/skeletons/Validate.h"
 
 namespace hybridtree
@@ -34,9 +35,18 @@ Box3 SegmentSkeleton::bounds() const
   return Box3(this->a()).extend(this->b());
 }
 
-std::optional<TriangleMesh> SegmentSkeleton::offsetMesh(double, double) const
+std::optional<TriangleMesh> SegmentSkeleton::offsetMesh(double radius, double edgeLength) const
 {
-  return std::nullopt;
+  const double length = shape_.edge.stableNorm();
+  Mat3 axes = Mat3::Identity();
+  if (length > 0.0)
+  {
+    axes.col(2) = shape_.edge / length;
+    axes.col(0) = anyAcross(axes.col(2));
+    axes.col(1) = axes.col(2).cross(axes.col(0));
+  }
+  const Vec3 middle = this->a() + 0.5 * shape_.edge;
+  return meshRoundedBox({ middle, axes, Vec3(0.0, 0.0, 0.5 * length) }, radius, edgeLength);
 }
 
 SkeletonPtr SegmentSkeleton::similarityImage(const Affine3& map, double) const
