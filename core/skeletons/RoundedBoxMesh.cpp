@@ -30,8 +30,9 @@ constexpr double kPi = 3.14159265358979323846;
 
 using Index3 = std::array<int, 3>;
 
-// Subdivided octants have their longest edges around the middle of the face: this many radii / n.
-constexpr double kLongestOfOctant = 2.2215;
+// No edge of a subdivided octant is longer than this many radii / n. Found numerically: the bound
+// grows with n, to 2.30575 in the limit.
+constexpr double kLongestOfOctant = 2.306;
 
 class TriangleList
 {
@@ -288,7 +289,7 @@ private:
           list.add(at(i + 1, j, k), at(i, j + 1, k), at(i, j, k + 1), flip);
           if (k > 0)
           {
-            list.add(at(i, j + 1, k), at(i + 1, j, k), at(i + 1, j + 1, k - 1), !flip);
+            list.add(at(i, j + 1, k), at(i + 1, j, k), at(i + 1, j + 1, k - 1), flip);
           }
         }
       }

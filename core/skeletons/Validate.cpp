@@ -20,7 +20,9 @@ template <class Matrix>
 std::string text(const Matrix& value)
 {
   std::ostringstream stream;
-  stream << '(' << value.transpose().reshaped().transpose() << ')';
+  const Eigen::IOFormat format(
+    Eigen::StreamPrecision, Eigen::DontAlignCols, " ", "; ", "", "", "(", ")");
+  stream << value.format(format);
   return stream.str();
 }
 
@@ -30,7 +32,7 @@ const Vec3& requireFinite(const std::string& name, const Vec3& value)
 {
   if (!value.allFinite())
   {
-    throw InvalidParameter(name, text(value), "three finite numbers");
+    throw InvalidParameter(name, text(value.transpose()), "three finite numbers");
   }
   return value;
 }
@@ -59,7 +61,8 @@ Vec3 requireDirection(const std::string& name, const Vec3& value)
   const double length = value.stableNorm();
   if (!(length > 0.0))
   {
-    throw InvalidParameter(name, text(value), "of a length other than 0, to give a direction");
+    throw InvalidParameter(
+      name, text(value.transpose()), "of a length other than 0, to give a direction");
   }
   if (std::abs(length - 1.0) <= kRounding)
   {

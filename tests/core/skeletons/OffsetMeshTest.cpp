@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Direct meshes: topology, shape of triangles, exactness of points and normals, enclosed volume.
+#include "core/base/Error.h"
+#include "core/mesh/MeshChecks.h"
+#include "tests/core/skeletons/SkeletonCases.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace hybridtree
+{
+namespace
+{
+
+using test::PointList;
+using test::Random;
+using test::VectorList;
+
+struct OffsetCase
+{
+  std::string name;
+  SkeletonPtr skeleton;
+  double radius;
+  double volume;
+  int genus = 0;
+};
+
+double sphere(double r)
+{
+  return 4.0 / 3.0 * EIGEN_PI * r * r * r;
+}
+
+// Steiner: volume, surface, mean width and points of the box, each swept by its part of the ball.
+double roundedBox(const Vec3& l, double r)
+{
+  return l.prod() + 2.0 * r * (l[0] * l[1] + l[1] * l[2] + l[2] * l[0]) +
+    EIGEN_PI * r * r * l.sum() + sphere(r);
+}
+
+std::vector<OffsetCase> offsetCases()
+{
+  Random random(21);
+  std::vector<OffsetCase> cases;
+  const auto add = [&](const char* name, SkeletonPtr skeleton, double r, double volume,
+                     int genus = 0) {
+    cases.push_back({ name, std::move(skeleton), r, volume, genus });
+  };
+  add("sphere", std::make_shared<PointSkeleton>(random.direction()), 0.8, sphere(0.8));
+  for (const double length : { 0.0, 0.01, 0.1, 0.3, 3.0 })
+  {
+    const Vec3 a = random.direction();
+    const Vec3 b = a + length * random.direction();
+    add(
+      "capsule", std::make_shared<SegmentSkeleton>(a, b), 0.5, roundedBox(Vec3(length, 0, 0), 0.5));
+  }
+  for (const double tube : { 0.1, 0.3, 0.6, 0.9, 0.99 })
+  {
+    add("torus", std::make_shared<CircleSkeleton>(random.direction(), random.direction(), 1.0),
+      tube, 2.0 * EIGEN_PI * EIGEN_PI * tube * tube, 1);
+  }
+  for (const Vec3& l : { Vec3(1, 2, 0.7), Vec3(1, 1, 1), Vec3(1, 2, 0), Vec3(2, 0.02, 1) })
+  {
+    add("rounded box", std::make_shared<BoxSkeleton>(random.direction(), l, random.rotation()), 0.3,
+      roundedBox(l, 0.3));
+  }
+  Mat3 mirror = random.rotation();
+  mirror.col(2) *= -1.0;
+  add("mirrored box", std::make_shared<BoxSkeleton>(random.direction(), Vec3(1, 2, 0.7), mirror),
+    0.3, roundedBox(Vec3(1, 2, 0.7), 0.3));
+  add("box", std::make_shared<BoxSkeleton>(random.direction(), Vec3(1, 2, 0.7), random.rotation()),
+    0.0, 1.4);
+  add("mirrored sharp box",
+    std::make_shared<BoxSkeleton>(random.direction(), Vec3(1, 2, 0.7), mirror), 0.0, 1.4);
+  return cases;
+}
+
+TEST(OffsetMesh, IsAClosedManifoldAtEveryEdgeLength)
+{
+  for (const OffsetCase& item : offsetCases())
+  {
+    for (const double length : { 0.03, 0.1, 0.3, 0.5, 1.0, 3.0, 100.0 })
+    {
+      const auto mesh = item.skeleton->offsetMesh(item.radius, length);
+      ASSERT_TRUE(mesh) << item.name;
+      const MeshReport report = checkMesh(*mesh);
+      EXPECT_TRUE(report.closedManifold())
+        << item.name << " at " << length << ": " << report.describe();
+      EXPECT_EQ(report.unusedPoints, 0u) << item.name << " at " << length;
+      EXPECT_EQ(report.degenerateTriangles, 0u) << item.name << " at " << length;
+      EXPECT_EQ(report.components, 1u) << item.name << " at " << length;
+      EXPECT_EQ(report.genus(), item.genus) << item.name << " at " << length;
+      EXPECT_GT(signedVolume(*mesh), 0.0) << item.name << " at " << length;
+    }
+  }
+}
+
+TEST(OffsetMesh, PointsAndNormalsAreExact)
+{
+  for (const OffsetCase& item : offsetCases())
+  {
+    const TriangleMesh mesh = *item.skeleton->offsetMesh(item.radius, 0.1);
+    const PointList points(mesh.points);
+    std::vector<double> distance(points.size());
+    VectorList gradient(points.size());
+    item.skeleton->distanceAndGradient(points, distance.data(), gradient);
+    ASSERT_EQ(mesh.normals.size(), mesh.points.size());
+    for (std::size_t k = 0; k < points.size(); ++k)
+    {
+      EXPECT_NEAR(distance[k], item.radius, 1e-13) << item.name;
+      EXPECT_NEAR(mesh.normals[k].norm(), 1.0, 1e-13) << item.name;
+      if (item.radius > 0.0)
+      {
+        EXPECT_LE((mesh.normals[k] - gradient[k]).norm(), 1e-11) << item.name;
+      }
+    }
+    // The sharp box, too: the normals of the points look to the side of the triangles around them.
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    {
+      for (const std::int32_t corner : mesh.triangles[t])
+      {
+        EXPECT_GT(areaNormal(mesh, t).normalized().dot(mesh.normals[corner]), 0.55) << item.name;
+      }
+    }
+  }
+}
+
+struct Shape
+{
+  double longest = 0.0;
+  double mean = 0.0;
+  double flatAngles = 0.0; // share of triangles with an angle below 25 degrees
+};
+
+Shape shapeOf(const TriangleMesh& mesh)
+{
+  Shape shape;
+  double sum = 0.0;
+  double flat = 0.0;
+  for (const Triangle& t : mesh.triangles)
+  {
+    double least = EIGEN_PI;
+    for (int k = 0; k < 3; ++k)
+    {
+      const Vec3 u = mesh.points[t[(k + 1) % 3]] - mesh.points[t[k]];
+      const Vec3 v = mesh.points[t[(k + 2) % 3]] - mesh.points[t[k]];
+      shape.longest = std::max(shape.longest, u.norm());
+      sum += u.norm();
+      least = std::min(least, std::atan2(u.cross(v).norm(), u.dot(v)));
+    }
+    flat += least < 25.0 * EIGEN_PI / 180.0;
+  }
+  shape.mean = sum / (3.0 * double(mesh.triangles.size()));
+  shape.flatAngles = flat / double(mesh.triangles.size());
+  return shape;
+}
+
+TEST(OffsetMesh, EdgesFillTheTargetLengthAndTrianglesAreWellShaped)
+{
+  for (const OffsetCase& item : offsetCases())
+  {
+    for (const double length : { 0.02, 0.033, 0.05, 0.09 })
+    {
+      const Shape shape = shapeOf(*item.skeleton->offsetMesh(item.radius, length));
+      EXPECT_LE(shape.longest, length * (1.0 + 1e-12)) << item.name << " r " << item.radius;
+      EXPECT_GE(shape.mean, 0.6 * length) << item.name << " r " << item.radius << " at " << length;
+      EXPECT_LE(shape.flatAngles, 0.01) << item.name << " r " << item.radius << " at " << length;
+    }
+  }
+}
+
+TEST(OffsetMesh, VolumeConvergesToTheSolid)
+{
+  for (const OffsetCase& item : offsetCases())
+  {
+    const double coarse = signedVolume(*item.skeleton->offsetMesh(item.radius, 0.08)) - item.volume;
+    const double fine = signedVolume(*item.skeleton->offsetMesh(item.radius, 0.02)) - item.volume;
+    EXPECT_LE(std::abs(coarse), 0.1 * item.volume) << item.name;
+    // Second order: a quarter of the length leaves about a sixteenth of the error.
+    EXPECT_LE(std::abs(fine), std::abs(coarse) / 8.0 + 1e-12) << item.name;
+  }
+}
+
+using PointSet = std::set<std::array<long long, 3>>;
+
+PointSet rounded(const std::vector<Vec3>& points, const Affine3& map)
+{
+  PointSet result;
+  for (const Vec3& point : points)
+  {
+    const Vec3 p = (map * point) * 1e6;
+    result.insert({ std::llround(p[0]), std::llround(p[1]), std::llround(p[2]) });
+  }
+  return result;
+}
+
+TEST(OffsetMesh, IsSymmetricInThePlanesOfTheShape)
+{
+  const std::vector<std::pair<SkeletonPtr, double>> shapes = {
+    { std::make_shared<PointSkeleton>(Vec3::Zero()), 0.7071 },
+    { std::make_shared<SegmentSkeleton>(Vec3(0, 0, -0.5), Vec3(0, 0, 0.5)), 0.3 },
+    { std::make_shared<CircleSkeleton>(Vec3::Zero(), Vec3::UnitZ(), 1.0), 0.2 },
+    { std::make_shared<CircleSkeleton>(Vec3::Zero(), Vec3::UnitZ(), 1.0), 0.7 },
+    { std::make_shared<BoxSkeleton>(Vec3::Zero(), Vec3(1, 2, 0.5)), 0.2 },
+    { std::make_shared<BoxSkeleton>(Vec3::Zero(), Vec3(1, 2, 0.5)), 0.0 },
+  };
+  for (const auto& [skeleton, radius] : shapes)
+  {
+    const TriangleMesh mesh = *skeleton->offsetMesh(radius, 0.13);
+    const PointSet points = rounded(mesh.points, Affine3::Identity());
+    EXPECT_EQ(points.size(), mesh.points.size());
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      Affine3 mirror = Affine3::Identity();
+      mirror.linear()(axis, axis) = -1.0;
+      EXPECT_EQ(rounded(mesh.points, mirror), points) << skeleton->kind() << " axis " << axis;
+    }
+  }
+}
+
+TEST(OffsetMesh, SimilarShapesHaveSimilarMeshes)
+{
+  Random random(22);
+  for (const OffsetCase& item : offsetCases())
+  {
+    const double scale = random.uniform(0.5, 2.0);
+    const Affine3 map = test::randomSimilarity(random, scale);
+    const SkeletonPtr image = item.skeleton->similarityImage(map, scale);
+    const TriangleMesh before = *item.skeleton->offsetMesh(item.radius, 0.1);
+    const TriangleMesh after = *image->offsetMesh(scale * item.radius, scale * 0.1);
+    EXPECT_NEAR(double(after.triangles.size()), double(before.triangles.size()),
+      0.05 * double(before.triangles.size()))
+      << item.name;
+    EXPECT_NEAR(
+      signedVolume(after), std::pow(scale, 3) * signedVolume(before), 1e-2 * signedVolume(after))
+      << item.name;
+  }
+}
+
+TEST(OffsetMesh, ATorusThatMeetsItselfIsLeftToTheLattice)
+{
+  const CircleSkeleton circle(Vec3::Zero(), Vec3::UnitX(), 1.0);
+  EXPECT_FALSE(circle.offsetMesh(1.0, 0.1));
+  EXPECT_FALSE(circle.offsetMesh(1.5, 0.1));
+  EXPECT_TRUE(circle.offsetMesh(0.999, 0.1));
+}
+
+TEST(OffsetMesh, AFlatBoxWithoutRadiusHasNoSurface)
+{
+  EXPECT_TRUE(BoxSkeleton(Vec3::Zero(), Vec3(1, 1, 0)).offsetMesh(0.0, 0.1)->empty());
+}
+
+TEST(OffsetMesh, TooManyTrianglesAreRefusedWithTheirNumber)
+{
+  const std::vector<std::pair<SkeletonPtr, double>> shapes = {
+    { std::make_shared<PointSkeleton>(Vec3::Zero()), 1.0 },
+    { std::make_shared<SegmentSkeleton>(Vec3::Zero(), Vec3(1, 0, 0)), 0.3 },
+    { std::make_shared<CircleSkeleton>(Vec3::Zero(), Vec3::UnitZ(), 1.0), 0.2 },
+    { std::make_shared<BoxSkeleton>(Vec3::Zero(), Vec3(1, 2, 0.5)), 0.2 },
+    { std::make_shared<BoxSkeleton>(Vec3::Zero(), Vec3(1, 2, 0.5)), 0.0 },
+  };
+  for (const auto& [skeleton, radius] : shapes)
+  {
+    for (const double length : { 1e-4, 1e-9, 1e-200, 1e-308 })
+    {
+      try
+      {
+        skeleton->offsetMesh(radius, length);
+        FAIL() << skeleton->kind() << " at " << length;
+      }
+      catch (const TooLarge& error)
+      {
+        EXPECT_NE(std::string(error.what()).find("5e+07"), std::string::npos) << error.what();
+      }
+    }
+  }
+}
+
+} // namespace
+} // namespace hybridtree

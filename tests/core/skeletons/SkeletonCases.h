@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "core/skeletons/Box.h"
+#include "core/skeletons/Circle.h"
+#include "core/skeletons/Point.h"
+#include "core/skeletons/Segment.h"
+#include "tests/support/Random.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace hybridtree::test
+{
+
+/// A skeleton beside what is needed to check it without its own code.
+struct SkeletonCase
+{
+  std::string name;
+  SkeletonPtr skeleton;
+  /// Points of the skeleton, or of the boundary of a volume, and the distance within which each
+  /// point of it has one of them.
+  std::vector<Vec3> samples;
+  double cover = 0.0;
+  /// Inside a volume, by definition; null for curves.
+  std::function<bool(const Vec3&)> inside;
+};
+
+/// Random skeletons of every kind, then degenerate ones.
+std::vector<SkeletonCase> skeletonCases();
+
+/// A rotation or reflection times `scale`, with a translation.
+Affine3 randomSimilarity(Random& random, double scale);
+
+/// Any invertible map, its stretches between 0.3 and 3.
+Affine3 randomAffine(Random& random);
+
+} // namespace hybridtree::test
