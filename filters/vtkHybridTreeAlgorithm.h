@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkHybridTreeAlgorithm
+ * @brief   base of all filters that are nodes of a HybridTree
+ *
+ * A node of the tree is one filter. Its output is the closed triangle mesh of the shape (points in
+ * double precision), with
+ * - point data Normals: unit, outward, from the gradient of the field;
+ * - cell data SourceId: index of the leaf a triangle comes from, in depth-first order of the tree,
+ * -1 where leaves blend; and a field-data array SourceNames, the name of each leaf;
+ * - the arrays of mesh inputs where their triangles survive: interpolated at vertices (real
+ * numbers; of integers and text the nearest corner's), copied to triangles; NaN, 0 or empty
+ * elsewhere. Arrays of one name from several meshes become one;
+ * - the tree itself, as field data (vtkHybridTreeArray).
+ *
+ * An input is a node of the tree when it brings a tree along that belongs to it; every other
+ * polydata is taken as a triangle mesh, a new leaf with a tenth of its diagonal as radius of
+ * influence.
+ *
+ * A filter whose consumers all take trees is asked for no mesh (FORMULATION): its output has the
+ * tree and no points then.
+ *
+ * Pieces: the first piece is everything, all other pieces are empty; inputs are asked for as one
+ * piece on every process.
+ *
+ * Subclasses are their parameters and MakeNode().
+ */
+
+#ifndef vtkHybridTreeAlgorithm_h
+#define vtkHybridTreeAlgorithm_h
+
+#include "HybridTreeFiltersModule.h" // for export macro
+#include "vtkPolyDataAlgorithm.h"
+
+#include <memory> // for std::shared_ptr
+#include <vector> // for Operands
+
+class vtkInformationIntegerKey;
+class vtkInformationIntegerRequestKey;
+
+namespace hybridtree
+{
+class Node;
+class Progress;
+}
+
+class HYBRIDTREEFILTERS_EXPORT vtkHybridTreeAlgorithm : public vtkPolyDataAlgorithm
+{
+public:
+  vtkTypeMacro(vtkHybridTreeAlgorithm, vtkPolyDataAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * Target edge length of the output's triangles, world units; 0 (the default) means a hundredth of
+   * the diagonal of the shape's bounds. Does not change the shape.
+   */
+  virtual void SetEdgeLength(double length);
+  vtkGetMacro(EdgeLength, double);
+  ///@}
+
+  enum FormulationType
+  {
+    MESH = 0,
+    FIELD = 1
+  };
+
+  /**
+   * What a consumer needs of a node: MESH, or FIELD when the tree will do. Asked upstream in
+   * RequestUpdateExtent; a mesh already made satisfies a later FIELD.
+   */
+  static vtkInformationIntegerRequestKey* FORMULATION();
+
+  /**
+   * Set to 1 in the information of an input port that takes the tree of a node and has no use for
+   * its mesh. Every input port of this class does unless a subclass says otherwise.
+   */
+  static vtkInformationIntegerKey* TAKES_TREE();
+
+  ///@{
+  /**
+   * How often this filter has run, and how often it has asked its shape for a mesh. For tests and
+   * profiles.
+   */
+  vtkGetMacro(NumberOfExecutions, int);
+  vtkGetMacro(NumberOfMeshings, int);
+  ///@}
+
+#ifndef __VTK_WRAP__
+  using NodePtr = std::shared_ptr<const hybridtree::Node>;
+
+  /**
+   * The node this filter made in its last run; null before the first and after an error.
+   */
+  NodePtr GetTree() const;
+#endif
+
+protected:
+  vtkHybridTreeAlgorithm();
+  ~vtkHybridTreeAlgorithm() override;
+
+#ifndef __VTK_WRAP__
+  /// One node per input connection, by port.
+  using Operands = std::vector<std::vector<NodePtr>>;
+
+  /**
+   * The node that the properties and operands describe. Called again only after a change of either;
+   * what it throws becomes the error message.
+   */
+  virtual NodePtr MakeNode(const Operands& operands) = 0;
+
+  /**
+   * Fills the output ports from 1 on, once the node is there.
+   */
+  virtual void FillOtherOutputs(const hybridtree::Node& node, vtkInformationVector* outputs);
+#endif
+
+  /**
+   * True when MakeNode() looks at EdgeLength. By default it does not, and a change of it keeps the
+   * node with all that it has computed.
+   */
+  virtual bool NodeDependsOnEdgeLength()
+  {
+    return false;
+  }
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestInformation(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  int RequestUpdateExtent(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  int RequestData(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  int ComputePipelineMTime(vtkInformation* request, vtkInformationVector** inputs,
+    vtkInformationVector* outputs, int requestFromOutputPort, vtkMTimeType* mtime) override;
+
+  double EdgeLength = 0.0;
+
+private:
+  vtkHybridTreeAlgorithm(const vtkHybridTreeAlgorithm&) = delete;
+  void operator=(const vtkHybridTreeAlgorithm&) = delete;
+
+  void Run(vtkInformationVector** inputs, vtkInformationVector* outputs);
+  void UpdateNode(vtkInformationVector** inputs);
+  void WriteOutput(vtkPolyData* output, bool withMesh, const hybridtree::Progress& progress);
+  void Warn(const std::vector<std::string>& warnings);
+  static void Clear(vtkInformationVector* outputs);
+
+  struct State;
+  std::unique_ptr<State> Internals;
+  int NumberOfExecutions = 0;
+  int NumberOfMeshings = 0;
+};
+
+#endif

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkHybridTreeArray.h"
+
+#include "core/tree/Serialize.h"
+#include "vtkFieldData.h"
+#include "vtkHybridTreeConvert.h"
+#include "vtkHybridTreeLeaves.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPolyData.h"
+
+vtkStandardNewMacro(vtkHybridTreeArray);
+
+//------------------------------------------------------------------------------
+vtkHybridTreeArray::vtkHybridTreeArray()
+{
+  this->SetName("HybridTree");
+}
+
+vtkHybridTreeArray::~vtkHybridTreeArray() = default;
+
+//------------------------------------------------------------------------------
+void vtkHybridTreeArray::PutTree(const NodePtr& tree, vtkPolyData* mesh)
+{
+  vtkNew<vtkHybridTreeArray> array;
+  array->Tree = tree;
+  array->InsertNextValue(hybridtree::toText(*tree));
+  array->InsertNextValue(hybridtree::fingerprintText(mesh));
+  mesh->GetFieldData()->AddArray(array);
+  hybridtree::putMeshes(*tree, mesh->GetFieldData());
+}
+
+//------------------------------------------------------------------------------
+vtkHybridTreeArray::NodePtr vtkHybridTreeArray::FindTree(vtkPolyData* mesh)
+{
+  const hybridtree::CarriedTree carried = hybridtree::carriedTree(mesh);
+  if (!carried.belongs || carried.live)
+  {
+    return carried.live;
+  }
+  return hybridtree::fromText(carried.text, hybridtree::meshesIn(mesh->GetFieldData()));
+}
+
+//------------------------------------------------------------------------------
+std::string vtkHybridTreeArray::GetText(vtkPolyData* mesh)
+{
+  return hybridtree::carriedTree(mesh).text;
+}
+
+//------------------------------------------------------------------------------
+void vtkHybridTreeArray::DeepCopy(vtkAbstractArray* source)
+{
+  this->Superclass::DeepCopy(source);
+  auto* other = vtkHybridTreeArray::SafeDownCast(source);
+  this->Tree = other ? other->Tree : nullptr;
+}
+
+//------------------------------------------------------------------------------
+void vtkHybridTreeArray::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Tree: " << (this->Tree ? this->Tree->kind() : "(none)") << "\n";
+}
+
+namespace hybridtree
+{
+
+std::string fingerprintText(vtkPolyData* mesh)
+{
+  constexpr char digits[] = "0123456789abcdef";
+  vtkTypeUInt64 rest = fingerprint(mesh);
+  std::string text(16, '0');
+  for (std::size_t k = text.size(); k-- > 0; rest >>= 4)
+  {
+    text[k] = digits[rest & 15u];
+  }
+  return text;
+}
+
+CarriedTree carriedTree(vtkPolyData* mesh)
+{
+  CarriedTree carried;
+  auto* array = vtkStringArray::SafeDownCast(mesh->GetFieldData()->GetAbstractArray("HybridTree"));
+  if (array && array->GetNumberOfValues() == 2 && array->GetValue(1) == fingerprintText(mesh))
+  {
+    carried.belongs = true;
+    carried.text = array->GetValue(0);
+    auto* live = vtkHybridTreeArray::SafeDownCast(array);
+    carried.live = live ? live->GetTree() : nullptr;
+  }
+  return carried;
+}
+
+} // namespace hybridtree

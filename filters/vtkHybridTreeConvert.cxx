@@ -1,0 +1,365 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkHybridTreeConvert.h"
+
+#include "core/base/Error.h"
+#include "vtkCellArray.h"
+#include "vtkCellArrayIterator.h"
+#include "vtkCellData.h"
+#include "vtkDoubleArray.h"
+#include "vtkIdList.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkPolygon.h"
+#include "vtkTypeInt32Array.h"
+
+#include <cstring>
+#include <limits>
+#include <map>
+#include <mutex>
+
+namespace hybridtree
+{
+namespace
+{
+
+// ---------------------------------------------------------------------------- shared memory
+
+/// VTK's buffers free their memory by a function that gets nothing but the address. This remembers
+/// whose memory it is.
+class Owners
+{
+public:
+  static Owners& instance()
+  {
+    static Owners* const owners = new Owners; // never destroyed: arrays may outlive statics
+    return *owners;
+  }
+
+  void add(void* address, std::shared_ptr<const void> owner)
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    owners_.emplace(address, std::move(owner));
+  }
+
+  static void release(void* address)
+  {
+    Owners& self = instance();
+    std::shared_ptr<const void> last; // goes after the lock
+    const std::lock_guard<std::mutex> lock(self.mutex_);
+    const auto found = self.owners_.find(address);
+    if (found != self.owners_.end())
+    {
+      last = std::move(found->second);
+      self.owners_.erase(found);
+    }
+  }
+
+private:
+  std::mutex mutex_;
+  std::multimap<void*, std::shared_ptr<const void>> owners_;
+};
+
+template <class Array, class Value>
+vtkSmartPointer<vtkDataArray> share(const Value* values, int components, std::size_t tuples,
+  std::shared_ptr<const void> owner, const std::string& name)
+{
+  auto array = vtkSmartPointer<Array>::New();
+  array->SetName(name.c_str());
+  array->SetNumberOfComponents(components);
+  if (tuples > 0)
+  {
+    auto* address = const_cast<Value*>(values);
+    Owners::instance().add(address, std::move(owner));
+    array->SetArray(address, static_cast<vtkIdType>(tuples) * components, 0,
+      vtkAbstractArray::VTK_DATA_ARRAY_USER_DEFINED);
+    array->SetArrayFreeFunction(&Owners::release);
+  }
+  return array;
+}
+
+// ---------------------------------------------------------------------------- fingerprint
+
+/// Four independent multiply-and-rotate lanes of 64 bits, so that it runs at the speed of memory.
+class Hash
+{
+public:
+  void add(vtkTypeUInt64 word)
+  {
+    vtkTypeUInt64& lane = lanes_[count_++ & 3u];
+    lane = (lane ^ word) * 0x9e3779b97f4a7c15ull;
+    lane = (lane << 31) | (lane >> 33);
+  }
+
+  void add(double value)
+  {
+    value += 0.0; // -0 is 0
+    vtkTypeUInt64 word;
+    std::memcpy(&word, &value, sizeof word);
+    this->add(word);
+  }
+
+  vtkTypeUInt64 result() const
+  {
+    vtkTypeUInt64 sum = count_;
+    for (vtkTypeUInt64 lane : lanes_)
+    {
+      sum = (sum ^ lane) * 0xbf58476d1ce4e5b9ull;
+      sum ^= sum >> 31;
+    }
+    return sum;
+  }
+
+private:
+  vtkTypeUInt64 lanes_[4] = { 0x243f6a8885a308d3ull, 0x13198a2e03707344ull, 0xa4093822299f31d0ull,
+    0x082efa98ec4e6c89ull };
+  vtkTypeUInt64 count_ = 0;
+};
+
+template <class Body>
+void forEachCell(vtkCellArray* cells, Body&& body)
+{
+  const auto iterator = vtk::TakeSmartPointer(cells->NewIterator());
+  for (iterator->GoToFirstCell(); !iterator->IsDoneWithTraversal(); iterator->GoToNextCell())
+  {
+    vtkIdType size;
+    const vtkIdType* points;
+    iterator->GetCurrentCell(size, points);
+    body(size, points);
+  }
+}
+
+void addCells(Hash& hash, vtkCellArray* cells)
+{
+  hash.add(static_cast<vtkTypeUInt64>(cells->GetNumberOfCells()));
+  forEachCell(cells,
+    [&hash](vtkIdType size, const vtkIdType* points)
+    {
+      hash.add(static_cast<vtkTypeUInt64>(size));
+      for (vtkIdType k = 0; k < size; ++k)
+      {
+        hash.add(static_cast<vtkTypeUInt64>(points[k]));
+      }
+    });
+}
+
+void addPoints(Hash& hash, vtkPoints* points)
+{
+  const vtkIdType count = points ? points->GetNumberOfPoints() : 0;
+  hash.add(static_cast<vtkTypeUInt64>(count));
+  if (auto* doubles = vtkDoubleArray::SafeDownCast(points ? points->GetData() : nullptr))
+  {
+    const double* values = doubles->GetPointer(0);
+    for (vtkIdType k = 0; k < 3 * count; ++k)
+    {
+      hash.add(values[k]);
+    }
+    return;
+  }
+  for (vtkIdType p = 0; p < count; ++p)
+  {
+    double x[3];
+    points->GetPoint(p, x);
+    hash.add(x[0]);
+    hash.add(x[1]);
+    hash.add(x[2]);
+  }
+}
+
+// ---------------------------------------------------------------------------- from VTK
+
+/// Collects the triangles of an input, each with the cell it comes from.
+class Triangulator
+{
+public:
+  explicit Triangulator(vtkPolyData* input) : input_(input)
+  {
+    if (input->GetNumberOfPoints() > std::numeric_limits<std::int32_t>::max())
+    {
+      throw TooLarge("The input has " + std::to_string(input->GetNumberOfPoints()) +
+        " points; a mesh leaf holds at most 2147483647. Decimate it first.");
+    }
+    vtkIdType cell = input->GetNumberOfVerts() + input->GetNumberOfLines();
+    forEachCell(input->GetPolys(),
+      [&](vtkIdType size, const vtkIdType* points) { this->addPolygon(cell++, size, points); });
+    forEachCell(input->GetStrips(),
+      [&](vtkIdType size, const vtkIdType* points) { this->addStrip(cell++, size, points); });
+  }
+
+  std::vector<Triangle> triangles;
+  std::vector<vtkIdType> cells;
+  std::size_t fans = 0; ///< polygons that had to be cut without regard to their shape
+
+private:
+  void add(vtkIdType cell, vtkIdType a, vtkIdType b, vtkIdType c)
+  {
+    triangles.push_back(
+      { static_cast<std::int32_t>(a), static_cast<std::int32_t>(b), static_cast<std::int32_t>(c) });
+    cells.push_back(cell);
+  }
+
+  void addStrip(vtkIdType cell, vtkIdType size, const vtkIdType* points)
+  {
+    for (vtkIdType k = 2; k < size; ++k)
+    {
+      const vtkIdType odd = k % 2;
+      this->add(cell, points[k - 2 + odd], points[k - 1 - odd], points[k]);
+    }
+  }
+
+  void addPolygon(vtkIdType cell, vtkIdType size, const vtkIdType* points)
+  {
+    if (size == 3)
+    {
+      this->add(cell, points[0], points[1], points[2]);
+    }
+    else if (size > 3 && !this->cutEars(cell, size, points))
+    {
+      ++fans;
+      for (vtkIdType k = 2; k < size; ++k)
+      {
+        this->add(cell, points[0], points[k - 1], points[k]);
+      }
+    }
+  }
+
+  bool cutEars(vtkIdType cell, vtkIdType size, const vtkIdType* points)
+  {
+    polygon_->PointIds->SetNumberOfIds(size);
+    polygon_->Points->SetNumberOfPoints(size);
+    for (vtkIdType k = 0; k < size; ++k)
+    {
+      double x[3];
+      input_->GetPoint(points[k], x);
+      polygon_->PointIds->SetId(k, k);
+      polygon_->Points->SetPoint(k, x);
+    }
+    if (!polygon_->Triangulate(0, corners_, unused_) ||
+      corners_->GetNumberOfIds() != 3 * (size - 2))
+    {
+      return false;
+    }
+    for (vtkIdType k = 0; k < corners_->GetNumberOfIds(); k += 3)
+    {
+      this->add(cell, points[corners_->GetId(k)], points[corners_->GetId(k + 1)],
+        points[corners_->GetId(k + 2)]);
+    }
+    return true;
+  }
+
+  vtkPolyData* input_;
+  vtkNew<vtkPolygon> polygon_;
+  vtkNew<vtkIdList> corners_;
+  vtkNew<vtkPoints> unused_;
+};
+
+void requirePolygons(vtkPolyData* input)
+{
+  if (input->GetNumberOfPolys() > 0 || input->GetNumberOfStrips() > 0)
+  {
+    return;
+  }
+  if (input->GetNumberOfPoints() == 0)
+  {
+    throw InvalidGeometry("The input is empty: it has no points. Check the filter it comes from.");
+  }
+  throw InvalidGeometry("The input is a point set: it has " +
+    std::to_string(input->GetNumberOfPoints()) +
+    " points and no polygons. Apply HybridTree Surface Reconstruction to it first.");
+}
+
+std::vector<Vec3> pointsOf(vtkPolyData* input)
+{
+  std::vector<Vec3> points(static_cast<std::size_t>(input->GetNumberOfPoints()));
+  for (std::size_t k = 0; k < points.size(); ++k)
+  {
+    input->GetPoint(static_cast<vtkIdType>(k), points[k].data());
+  }
+  return points;
+}
+
+// ---------------------------------------------------------------------------- to VTK
+
+vtkSmartPointer<vtkCellArray> trianglesOf(const MeshPtr& mesh)
+{
+  const std::size_t count = mesh->triangles.size();
+  vtkNew<vtkTypeInt32Array> offsets;
+  offsets->SetNumberOfValues(static_cast<vtkIdType>(count) + 1);
+  for (std::size_t t = 0; t <= count; ++t)
+  {
+    offsets->SetValue(static_cast<vtkIdType>(t), static_cast<vtkTypeInt32>(3 * t));
+  }
+  auto cells = vtkSmartPointer<vtkCellArray>::New();
+  const auto corners =
+    sharedArray(count > 0 ? mesh->triangles.front().data() : nullptr, 1, 3 * count, mesh, "");
+  cells->SetData(offsets, vtkTypeInt32Array::SafeDownCast(corners));
+  return cells;
+}
+
+} // namespace
+
+vtkSmartPointer<vtkDataArray> sharedArray(const double* values, int components, std::size_t tuples,
+  std::shared_ptr<const void> owner, const std::string& name)
+{
+  return share<vtkDoubleArray>(values, components, tuples, std::move(owner), name);
+}
+
+vtkSmartPointer<vtkDataArray> sharedArray(const std::int32_t* values, int components,
+  std::size_t tuples, std::shared_ptr<const void> owner, const std::string& name)
+{
+  return share<vtkTypeInt32Array>(values, components, tuples, std::move(owner), name);
+}
+
+vtkTypeUInt64 fingerprint(vtkPolyData* mesh)
+{
+  Hash hash;
+  addPoints(hash, mesh->GetPoints());
+  addCells(hash, mesh->GetPolys());
+  addCells(hash, mesh->GetStrips());
+  return hash.result();
+}
+
+ConvertedMesh toMesh(vtkPolyData* input)
+{
+  requirePolygons(input);
+  const Triangulator made(input);
+  ConvertedMesh converted;
+  converted.repaired = repairMesh(pointsOf(input), made.triangles);
+  converted.cells.reserve(converted.repaired.triangleMap.size());
+  for (std::int32_t triangle : converted.repaired.triangleMap)
+  {
+    converted.cells.push_back(made.cells[static_cast<std::size_t>(triangle)]);
+  }
+  if (made.fans > 0)
+  {
+    converted.repaired.warnings.push_back(std::to_string(made.fans) +
+      " polygons are flat lines or cross themselves and were cut into fans.");
+  }
+  return converted;
+}
+
+void toPolyData(const MeshPtr& mesh, vtkPolyData* output)
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataType(VTK_DOUBLE);
+  if (!mesh->points.empty())
+  {
+    points->SetData(
+      sharedArray(mesh->points.front().data(), 3, mesh->points.size(), mesh, "Points"));
+  }
+  output->SetPoints(points);
+  output->SetPolys(trianglesOf(mesh));
+  if (!mesh->normals.empty())
+  {
+    output->GetPointData()->SetNormals(
+      sharedArray(mesh->normals.front().data(), 3, mesh->normals.size(), mesh, "Normals"));
+  }
+  if (!mesh->sourceLeaf.empty())
+  {
+    output->GetCellData()->AddArray(
+      sharedArray(mesh->sourceLeaf.data(), 1, mesh->sourceLeaf.size(), mesh, "SourceId"));
+  }
+}
+
+} // namespace hybridtree

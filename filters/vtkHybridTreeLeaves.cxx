@@ -1,0 +1,459 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkHybridTreeLeaves.h"
+
+#include "core/mesh/ContentHash.h"
+#include "core/tree/Serialize.h"
+#include "vtkCellData.h"
+#include "vtkDataArray.h"
+#include "vtkFieldData.h"
+#include "vtkIdList.h"
+#include "vtkMath.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkStringArray.h"
+
+#include <algorithm>
+#include <cctype>
+
+namespace hybridtree
+{
+namespace
+{
+
+const std::string kPoints = "HybridTreePoints:";
+const std::string kTriangles = "HybridTreeTriangles:";
+const std::string kPointData = "HybridTreePointData:";
+const std::string kCellData = "HybridTreeCellData:";
+const std::string kNames = "SourceNames";
+
+bool startsWith(const std::string& text, const std::string& start)
+{
+  return text.compare(0, start.size(), start) == 0;
+}
+
+std::string nameOf(vtkAbstractArray* array)
+{
+  return array->GetName() ? array->GetName() : "";
+}
+
+/// An array of the type of another, empty. Never an implicit one, which no file could hold.
+vtkSmartPointer<vtkAbstractArray> arrayLike(vtkAbstractArray* other, const std::string& name)
+{
+  auto array = vtk::TakeSmartPointer(vtkAbstractArray::CreateArray(other->GetDataType()));
+  array->SetName(name.c_str());
+  array->SetNumberOfComponents(other->GetNumberOfComponents());
+  array->CopyComponentNames(other);
+  return array;
+}
+
+// ---------------------------------------------------------------------------- leaves
+
+std::string kindName(const Node& leaf)
+{
+  const Parameters parameters = leaf.parameters();
+  std::string name =
+    parameters.has("skeleton") ? parameters.getString("skeleton") : std::string(leaf.kind());
+  name[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[0])));
+  return name;
+}
+
+void appendLeaves(const Node& node, std::vector<Leaf>& leaves)
+{
+  const std::vector<NodePtr> children = node.children();
+  for (const NodePtr& child : children)
+  {
+    appendLeaves(*child, leaves);
+  }
+  if (children.empty())
+  {
+    Leaf leaf;
+    leaf.name = kindName(node) + " " + std::to_string(leaves.size());
+    leaf.mesh = node.leafMesh();
+    leaf.hash = leaf.mesh ? contentHashText(*leaf.mesh) : "";
+    leaves.push_back(std::move(leaf));
+  }
+}
+
+// ---------------------------------------------------------------------------- arrays of an input
+
+/// What every output has of its own, or what means nothing on a part of a mesh.
+bool staysBehind(vtkDataSetAttributes* data, vtkAbstractArray* array)
+{
+  const std::string name = nameOf(array);
+  return name.empty() || name == "Normals" || name == "SourceId" ||
+    name == vtkDataSetAttributes::GhostArrayName() || array == data->GetNormals() ||
+    array == data->GetGlobalIds() || array->GetDataType() == VTK_VARIANT;
+}
+
+void gather(vtkDataSetAttributes* data, vtkIdList* rows, const std::string& prefix, LeafArrays& to)
+{
+  for (int k = 0; k < data->GetNumberOfArrays(); ++k)
+  {
+    vtkAbstractArray* array = data->GetAbstractArray(k);
+    if (!staysBehind(data, array))
+    {
+      const std::string name = prefix + nameOf(array);
+      const auto part = arrayLike(array, name);
+      part->SetNumberOfTuples(rows->GetNumberOfIds());
+      array->GetTuples(rows, part);
+      to[name] = part;
+    }
+  }
+}
+
+/// Per point of the leaf, the first point of the input that became it.
+vtkSmartPointer<vtkIdList> pointRows(const RepairedMesh& repaired)
+{
+  auto rows = vtkSmartPointer<vtkIdList>::New();
+  rows->SetNumberOfIds(static_cast<vtkIdType>(repaired.mesh->points.size()));
+  for (std::size_t k = repaired.pointMap.size(); k-- > 0;)
+  {
+    if (repaired.pointMap[k] >= 0)
+    {
+      rows->SetId(repaired.pointMap[k], static_cast<vtkIdType>(k));
+    }
+  }
+  return rows;
+}
+
+bool sameContent(vtkAbstractArray* a, vtkAbstractArray* b)
+{
+  if (a == b)
+  {
+    return true;
+  }
+  if (a->GetDataType() != b->GetDataType() || a->GetNumberOfValues() != b->GetNumberOfValues())
+  {
+    return false;
+  }
+  for (vtkIdType k = 0; k < a->GetNumberOfValues(); ++k)
+  {
+    if (a->GetVariantValue(k) != b->GetVariantValue(k))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+// ---------------------------------------------------------------------------- arrays of an output
+
+/// One array of the output: per leaf the array it comes from, or null.
+struct Column
+{
+  explicit Column(std::size_t leaves) : sources(leaves, nullptr) {}
+
+  std::vector<vtkAbstractArray*> sources;
+  std::vector<vtkSmartPointer<vtkAbstractArray>> converted; ///< keeps those that changed type
+};
+using Columns = std::map<std::string, Column>;
+
+Columns columnsOf(
+  const LeafArrays& arrays, const std::vector<Leaf>& leaves, const std::string& prefix)
+{
+  Columns columns;
+  for (std::size_t leaf = 0; leaf < leaves.size(); ++leaf)
+  {
+    if (!leaves[leaf].mesh)
+    {
+      continue;
+    }
+    const std::string start = prefix + leaves[leaf].hash + ":";
+    for (auto entry = arrays.lower_bound(start);
+         entry != arrays.end() && startsWith(entry->first, start); ++entry)
+    {
+      const auto column = columns.emplace(entry->first.substr(start.size()), leaves.size()).first;
+      column->second.sources[leaf] = entry->second;
+    }
+  }
+  return columns;
+}
+
+bool isReal(vtkAbstractArray* array)
+{
+  return array->GetDataType() == VTK_FLOAT || array->GetDataType() == VTK_DOUBLE;
+}
+
+/// An array for the column, of the type of its first source, holding nothing but what stands for
+/// "no value"; the other sources are brought to that type, or left out and told.
+vtkSmartPointer<vtkAbstractArray> startColumn(
+  const std::string& name, Column& column, std::size_t rows, std::vector<std::string>& untold)
+{
+  vtkSmartPointer<vtkAbstractArray> result;
+  for (vtkAbstractArray*& source : column.sources)
+  {
+    if (!source)
+    {
+      continue;
+    }
+    if (!result)
+    {
+      result = arrayLike(source, name);
+    }
+    else if (source->GetNumberOfComponents() != result->GetNumberOfComponents() ||
+      (source->GetDataType() != result->GetDataType() &&
+        !(source->IsNumeric() && result->IsNumeric())))
+    {
+      source = nullptr;
+      untold.push_back("The array \"" + name +
+        "\" is not of the same kind on all input meshes; that of the first is passed.");
+    }
+    else if (source->GetDataType() != result->GetDataType())
+    {
+      column.converted.push_back(arrayLike(result, name));
+      column.converted.back()->DeepCopy(source);
+      source = column.converted.back();
+    }
+  }
+  result->SetNumberOfTuples(static_cast<vtkIdType>(rows));
+  if (auto* numbers = vtkDataArray::SafeDownCast(result))
+  {
+    numbers->Fill(isReal(result) ? vtkMath::Nan() : 0.0);
+  }
+  return result;
+}
+
+/// Values at the vertices that lie on leaves.
+class VertexValues
+{
+public:
+  VertexValues(const TriangleMesh& mesh, const std::vector<Leaf>& leaves)
+    : mesh_(mesh), leaves_(leaves)
+  {
+    ids_->SetNumberOfIds(3);
+  }
+
+  void fill(const Column& column, vtkAbstractArray* result) const
+  {
+    const bool real = isReal(result);
+    for (std::size_t v = 0; v < mesh_.vertexOrigin.size(); ++v)
+    {
+      const VertexOrigin& origin = mesh_.vertexOrigin[v];
+      vtkAbstractArray* source = origin.leaf < 0 || origin.triangle < 0
+        ? nullptr
+        : column.sources[static_cast<std::size_t>(origin.leaf)];
+      if (source)
+      {
+        this->set(static_cast<vtkIdType>(v), origin, source, real, result);
+      }
+    }
+  }
+
+private:
+  void set(vtkIdType row, const VertexOrigin& origin, vtkAbstractArray* source, bool real,
+    vtkAbstractArray* result) const
+  {
+    const Triangle& corners = leaves_[static_cast<std::size_t>(origin.leaf)]
+                                .mesh->triangles[static_cast<std::size_t>(origin.triangle)];
+    double weights[3] = { 1.0 - origin.u - origin.v, origin.u, origin.v };
+    const auto nearest = std::max_element(weights, weights + 3) - weights;
+    if (!real || weights[nearest] == 1.0)
+    {
+      result->SetTuple(row, corners[static_cast<std::size_t>(nearest)], source);
+      return;
+    }
+    for (int k = 0; k < 3; ++k)
+    {
+      ids_->SetId(k, corners[static_cast<std::size_t>(k)]);
+    }
+    result->InterpolateTuple(row, ids_, source, weights);
+  }
+
+  const TriangleMesh& mesh_;
+  const std::vector<Leaf>& leaves_;
+  vtkNew<vtkIdList> ids_;
+};
+
+void fillCells(const TriangleMesh& mesh, const Column& column, vtkAbstractArray* result)
+{
+  for (std::size_t t = 0; t < mesh.sourceTriangle.size(); ++t)
+  {
+    const std::int32_t leaf = mesh.sourceLeaf[t];
+    vtkAbstractArray* source = leaf < 0 || mesh.sourceTriangle[t] < 0
+      ? nullptr
+      : column.sources[static_cast<std::size_t>(leaf)];
+    if (source)
+    {
+      result->SetTuple(static_cast<vtkIdType>(t), mesh.sourceTriangle[t], source);
+    }
+  }
+}
+
+// ---------------------------------------------------------------------------- meshes
+
+InvalidText damaged(const std::string& hash, const std::string& what)
+{
+  return InvalidText("The mesh leaf " + hash + " that the tree refers to is damaged: " + what +
+    ". Save the file again in binary form from the filter that made it.");
+}
+
+/// Points and triangles as the arrays beside the tree give them; null when they are not there.
+MeshPtr readMesh(vtkFieldData* data, const std::string& hash)
+{
+  vtkDataArray* points = data->GetArray((kPoints + hash).c_str());
+  vtkDataArray* triangles = data->GetArray((kTriangles + hash).c_str());
+  if (!points || !triangles)
+  {
+    return nullptr;
+  }
+  if (points->GetNumberOfComponents() != 3 || triangles->GetNumberOfComponents() != 3)
+  {
+    throw damaged(hash, "its arrays do not have three components");
+  }
+  auto mesh = std::make_shared<TriangleMesh>();
+  mesh->points.resize(static_cast<std::size_t>(points->GetNumberOfTuples()));
+  for (std::size_t k = 0; k < mesh->points.size(); ++k)
+  {
+    points->GetTuple(static_cast<vtkIdType>(k), mesh->points[k].data());
+  }
+  mesh->triangles.resize(static_cast<std::size_t>(triangles->GetNumberOfTuples()));
+  for (std::size_t k = 0; k < mesh->triangles.size(); ++k)
+  {
+    for (int corner = 0; corner < 3; ++corner)
+    {
+      const double index = triangles->GetComponent(static_cast<vtkIdType>(k), corner);
+      if (!(0.0 <= index && index < static_cast<double>(mesh->points.size())))
+      {
+        throw damaged(hash, "triangle " + std::to_string(k) + " has a corner that does not exist");
+      }
+      mesh->triangles[k][static_cast<std::size_t>(corner)] = static_cast<std::int32_t>(index);
+    }
+  }
+  if (contentHashText(*mesh) != hash)
+  {
+    throw damaged(hash, "its numbers are not those that were saved");
+  }
+  return mesh;
+}
+
+} // namespace
+
+// ---------------------------------------------------------------------------- leaves
+
+std::vector<Leaf> leavesOf(const Node& tree)
+{
+  std::vector<Leaf> leaves;
+  appendLeaves(tree, leaves);
+  return leaves;
+}
+
+void putNames(const std::vector<Leaf>& leaves, vtkFieldData* data)
+{
+  vtkNew<vtkStringArray> names;
+  names->SetName(kNames.c_str());
+  for (const Leaf& leaf : leaves)
+  {
+    names->InsertNextValue(leaf.name);
+  }
+  data->AddArray(names);
+}
+
+void removeLeaves(vtkFieldData* data)
+{
+  for (int k = data->GetNumberOfArrays() - 1; k >= 0; --k)
+  {
+    const std::string name = nameOf(data->GetAbstractArray(k));
+    if (name == "HybridTree" || name == kNames || startsWith(name, kPoints) ||
+      startsWith(name, kTriangles) || startsWith(name, kPointData) || startsWith(name, kCellData))
+    {
+      data->RemoveArray(k);
+    }
+  }
+}
+
+void putMeshes(const Node& tree, vtkFieldData* data)
+{
+  for (const auto& [hash, mesh] : meshesOf(tree))
+  {
+    data->AddArray(
+      sharedArray(mesh->points.front().data(), 3, mesh->points.size(), mesh, kPoints + hash));
+    data->AddArray(sharedArray(
+      mesh->triangles.front().data(), 3, mesh->triangles.size(), mesh, kTriangles + hash));
+  }
+}
+
+MeshLookup meshesIn(vtkFieldData* data)
+{
+  return [data](const std::string& hash) { return readMesh(data, hash); };
+}
+
+// ---------------------------------------------------------------------------- arrays
+
+LeafArrays arraysOf(vtkPolyData* input, const ConvertedMesh& leaf)
+{
+  const std::string hash = contentHashText(*leaf.repaired.mesh) + ":";
+  LeafArrays arrays;
+  gather(input->GetPointData(), pointRows(leaf.repaired), kPointData + hash, arrays);
+  vtkNew<vtkIdList> cells;
+  cells->SetNumberOfIds(static_cast<vtkIdType>(leaf.cells.size()));
+  std::copy(leaf.cells.begin(), leaf.cells.end(), cells->GetPointer(0));
+  gather(input->GetCellData(), cells, kCellData + hash, arrays);
+  return arrays;
+}
+
+LeafArrays arraysIn(vtkFieldData* data)
+{
+  LeafArrays arrays;
+  for (int k = 0; k < data->GetNumberOfArrays(); ++k)
+  {
+    vtkAbstractArray* array = data->GetAbstractArray(k);
+    const std::string name = nameOf(array);
+    if (startsWith(name, kPointData) || startsWith(name, kCellData))
+    {
+      arrays[name] = array;
+    }
+  }
+  return arrays;
+}
+
+std::vector<std::string> mergeArrays(const LeafArrays& from, LeafArrays& to)
+{
+  std::vector<std::string> differing;
+  for (const auto& [name, array] : from)
+  {
+    const auto [entry, isNew] = to.emplace(name, array);
+    if (!isNew && !sameContent(entry->second, array))
+    {
+      differing.push_back("Two inputs are the same mesh with different values of \"" +
+        name.substr(name.find(':', name.find(':') + 1) + 1) + "\"; those of the first are passed.");
+    }
+  }
+  return differing;
+}
+
+void putArrays(const LeafArrays& arrays, const std::vector<Leaf>& leaves, vtkFieldData* data)
+{
+  for (const auto& [name, array] : arrays)
+  {
+    const std::size_t begin = name.find(':') + 1;
+    const std::string hash = name.substr(begin, name.find(':', begin) - begin);
+    const auto isOwner = [&hash](const Leaf& leaf) { return leaf.mesh && leaf.hash == hash; };
+    if (std::any_of(leaves.begin(), leaves.end(), isOwner))
+    {
+      data->AddArray(array);
+    }
+  }
+}
+
+std::vector<std::string> passArrays(const LeafArrays& arrays, const std::vector<Leaf>& leaves,
+  const TriangleMesh& mesh, vtkPolyData* output)
+{
+  std::vector<std::string> untold;
+  const VertexValues vertices(mesh, leaves);
+  for (auto& [name, column] : columnsOf(arrays, leaves, kPointData))
+  {
+    const auto result = startColumn(name, column, mesh.points.size(), untold);
+    vertices.fill(column, result);
+    output->GetPointData()->AddArray(result);
+  }
+  for (auto& [name, column] : columnsOf(arrays, leaves, kCellData))
+  {
+    const auto result = startColumn(name, column, mesh.triangles.size(), untold);
+    fillCells(mesh, column, result);
+    output->GetCellData()->AddArray(result);
+  }
+  return untold;
+}
+
+} // namespace hybridtree

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkHybridTreeOperand.h"
+
+#include "core/mesh/ContentHash.h"
+#include "core/nodes/MeshNode.h"
+#include "core/tree/Serialize.h"
+#include "vtkHybridTreeArray.h"
+#include "vtkPolyData.h"
+
+namespace hybridtree
+{
+namespace
+{
+
+/// I and n of a plain mesh: f rises from T on the mesh to 2 T inside.
+constexpr double kPlainMaximumField = 2.0 * kThreshold;
+constexpr int kPlainExponent = 2;
+
+void append(const std::vector<std::string>& from, std::vector<std::string>& to)
+{
+  to.insert(to.end(), from.begin(), from.end());
+}
+
+void appendAllWarnings(const Node& node, std::vector<std::string>& to)
+{
+  append(node.warnings(), to);
+  for (const NodePtr& child : node.children())
+  {
+    appendAllWarnings(*child, to);
+  }
+}
+
+} // namespace
+
+void Operand::read(vtkPolyData* input, std::vector<std::string>& newWarnings)
+{
+  const CarriedTree carried = carriedTree(input);
+  if (!carried.belongs)
+  {
+    this->readMesh(input, newWarnings);
+    return;
+  }
+  if (carried.live)
+  {
+    node_ = carried.live;
+    text_.clear();
+  }
+  else if (!node_ || text_ != carried.text)
+  {
+    node_ = fromText(carried.text, meshesIn(input->GetFieldData()));
+    text_ = carried.text;
+    appendAllWarnings(*node_, newWarnings);
+  }
+  mesh_ = {};
+  arrays_.clear();
+  mergeArrays(arraysIn(input->GetFieldData()), arrays_);
+}
+
+void Operand::readMesh(vtkPolyData* input, std::vector<std::string>& newWarnings)
+{
+  const vtkTypeUInt64 print = fingerprint(input);
+  if (!mesh_.repaired.mesh || print != fingerprint_)
+  {
+    node_ = nullptr;
+    text_.clear();
+    mesh_ = toMesh(input);
+    fingerprint_ = print;
+    append(mesh_.repaired.warnings, newWarnings);
+  }
+  if (!node_)
+  {
+    const MeshPtr& mesh = mesh_.repaired.mesh;
+    node_ = makeMeshNode(mesh, kPlainMaximumField, defaultInfluenceRadius(*mesh), kPlainExponent);
+    append(node_->warnings(), newWarnings);
+  }
+  arrays_ = arraysOf(input, mesh_);
+}
+
+} // namespace hybridtree

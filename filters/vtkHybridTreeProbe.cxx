@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkHybridTreeProbe.h"
+
+#include "core/base/Parallel.h"
+#include "core/base/Scratch.h"
+#include "core/nodes/Node.h"
+#include "vtkDataSet.h"
+#include "vtkDoubleArray.h"
+#include "vtkHybridTreeAlgorithm.h"
+#include "vtkHybridTreeFormulation.h"
+#include "vtkHybridTreeOperand.h"
+#include "vtkHybridTreeProgress.h"
+#include "vtkInformation.h"
+#include "vtkInformationIntegerKey.h"
+#include "vtkInformationVector.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkSignedCharArray.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+
+#include <atomic>
+
+vtkStandardNewMacro(vtkHybridTreeProbe);
+
+struct vtkHybridTreeProbe::State
+{
+  hybridtree::Operand Tree;
+};
+
+namespace
+{
+
+constexpr std::size_t kBatch = 512;
+
+template <class Array>
+Array* addArray(vtkDataSet* output, const char* name, int components)
+{
+  vtkNew<Array> array;
+  array->SetName(name);
+  array->SetNumberOfComponents(components);
+  array->SetNumberOfTuples(output->GetNumberOfPoints());
+  output->GetPointData()->AddArray(array);
+  return array;
+}
+
+/// Fills the four arrays, batch by batch.
+class Prober
+{
+public:
+  Prober(const hybridtree::Node& node, vtkDataSet* output)
+    : node_(node)
+    , points_(output)
+    , size_(static_cast<std::size_t>(output->GetNumberOfPoints()))
+    , field_(addArray<vtkDoubleArray>(output, "Field", 1)->GetPointer(0))
+    , gradient_(addArray<vtkDoubleArray>(output, "Gradient", 3)->GetPointer(0))
+    , membership_(addArray<vtkSignedCharArray>(output, "Membership", 1)->GetPointer(0))
+    , distance_(addArray<vtkDoubleArray>(output, "SignedDistance", 1)->GetPointer(0))
+  {
+  }
+
+  void run(const hybridtree::Progress& progress) const
+  {
+    double first[3];
+    if (size_ > 0)
+    {
+      points_->GetPoint(0, first); // builds what the data set needs before threads may ask it
+    }
+    std::atomic<std::size_t> done{ 0 };
+    hybridtree::parallelFor(size_, kBatch,
+      [&](std::size_t begin, std::size_t end)
+      {
+        progress.check();
+        for (std::size_t k = begin; k < end; k += kBatch)
+        {
+          this->probe(k, std::min(kBatch, end - k));
+        }
+        progress.report(static_cast<double>(done += end - begin) / static_cast<double>(size_));
+      });
+  }
+
+private:
+  void probe(std::size_t begin, std::size_t count) const
+  {
+    hybridtree::ScratchVectors points(count);
+    hybridtree::ScratchVectors gradients(count);
+    const hybridtree::VectorBatch position = points.batch();
+    const hybridtree::VectorBatch gradient = gradients.batch();
+    for (std::size_t k = 0; k < count; ++k)
+    {
+      hybridtree::Vec3 x;
+      points_->GetPoint(static_cast<vtkIdType>(begin + k), x.data());
+      position.set(k, x);
+    }
+    node_.fieldAndGradient(points.points(), field_ + begin, gradient);
+    node_.membership(points.points(), membership_ + begin);
+    node_.signedDistance(points.points(), distance_ + begin);
+    for (std::size_t k = 0; k < count; ++k)
+    {
+      const hybridtree::Vec3 g = gradient[k];
+      std::copy_n(g.data(), 3, gradient_ + 3 * (begin + k));
+    }
+  }
+
+  const hybridtree::Node& node_;
+  vtkDataSet* points_;
+  std::size_t size_;
+  double* field_;
+  double* gradient_;
+  signed char* membership_;
+  double* distance_;
+};
+
+} // namespace
+
+//------------------------------------------------------------------------------
+vtkHybridTreeProbe::vtkHybridTreeProbe() : Internals(new State)
+{
+  this->SetNumberOfInputPorts(2);
+}
+
+vtkHybridTreeProbe::~vtkHybridTreeProbe() = default;
+
+//------------------------------------------------------------------------------
+int vtkHybridTreeProbe::FillInputPortInformation(int port, vtkInformation* info)
+{
+  if (port == 0)
+  {
+    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+    info->Set(vtkHybridTreeAlgorithm::TAKES_TREE(), 1);
+    return 1;
+  }
+  return this->Superclass::FillInputPortInformation(port, info);
+}
+
+//------------------------------------------------------------------------------
+int vtkHybridTreeProbe::RequestDataObject(
+  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  vtkDataSet* points = vtkDataSet::GetData(inputs[1]);
+  vtkDataSet* output = vtkDataSet::GetData(outputs);
+  if (!points)
+  {
+    return 0;
+  }
+  if (!output || output->GetDataObjectType() != points->GetDataObjectType())
+  {
+    const auto made = vtk::TakeSmartPointer(points->NewInstance());
+    outputs->GetInformationObject(0)->Set(vtkDataObject::DATA_OBJECT(), made);
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkHybridTreeProbe::RequestInformation(
+  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  // By default an output takes extent, spacing and times from port 0; here they are those of
+  // Points.
+  vtkInformation* points = inputs[1]->GetInformationObject(0);
+  vtkInformation* output = outputs->GetInformationObject(0);
+  output->CopyEntry(points, vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT());
+  output->CopyEntry(points, vtkDataObject::SPACING());
+  output->CopyEntry(points, vtkDataObject::ORIGIN());
+  output->CopyEntry(points, vtkDataObject::DIRECTION());
+  output->CopyEntry(points, vtkStreamingDemandDrivenPipeline::TIME_STEPS());
+  output->CopyEntry(points, vtkStreamingDemandDrivenPipeline::TIME_RANGE());
+  output->CopyEntry(points, vtkAlgorithm::CAN_HANDLE_PIECE_REQUEST());
+  output->CopyEntry(points, vtkAlgorithm::CAN_PRODUCE_SUB_EXTENT());
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkHybridTreeProbe::RequestUpdateExtent(
+  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector*)
+{
+  hybridtree::askProducers(this, 0, inputs);
+  hybridtree::askMesh(inputs[1]->GetInformationObject(0));
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkHybridTreeProbe::RequestData(
+  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  vtkDataSet* output = vtkDataSet::GetData(outputs);
+  try
+  {
+    std::vector<std::string> warnings;
+    this->Internals->Tree.read(vtkPolyData::GetData(inputs[0]), warnings);
+    for (const std::string& warning : warnings)
+    {
+      vtkWarningMacro(<< warning);
+    }
+    output->ShallowCopy(vtkDataSet::GetData(inputs[1]));
+    const hybridtree::FilterProgress progress(this);
+    Prober(*this->Internals->Tree.node(), output).run(progress);
+    return 1;
+  }
+  catch (const hybridtree::Cancelled&) // the user's wish, not an error
+  {
+    output->Initialize();
+    return 1;
+  }
+  catch (const std::exception& error)
+  {
+    output->Initialize();
+    vtkErrorMacro(<< error.what());
+    return 0;
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkHybridTreeProbe::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  const auto& tree = this->Internals->Tree.node();
+  os << indent << "Tree: " << (tree ? tree->kind() : "(none)") << "\n";
+}
