@@ -6,6 +6,7 @@
 #include "core/nodes/MeshField.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace hybridtree
@@ -58,6 +59,12 @@ public:
     return parameters;
   }
   MeshPtr leafMesh() const override { return field_.mesh(); }
+  std::optional<SurfaceField> surfaceField() const override
+  {
+    const double scale = std::cbrt(std::abs(field_.map().linear().determinant()));
+    return SurfaceField{ field_.maximumField(), scale * field_.influenceRadius(),
+      field_.exponent() };
+  }
   std::vector<std::string> warnings() const override { return field_.distance().warnings(); }
 
 protected:

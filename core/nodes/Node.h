@@ -7,12 +7,22 @@
 #include "core/polygonize/FieldSource.h"
 
 #include <mutex>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace hybridtree
 {
+
+/// How the field of one leaf falls off around its surface: the potential over the distance to that
+/// surface, as MeshField takes it.
+struct SurfaceField
+{
+  double maximumField;    ///< I, |I| >= T
+  double influenceRadius; ///< distance outside of the surface where the field ends
+  int exponent;           ///< n
+};
 
 class Node;
 using NodePtr = std::shared_ptr<const Node>;
@@ -73,6 +83,11 @@ public:
   /// The mesh a mesh leaf is made of, which parameters() names by its content hash as "mesh"; null
   /// for every other kind.
   virtual MeshPtr leafMesh() const { return nullptr; }
+
+  /// For single leaves with a level of +-T, in the mean over directions where a map has stretched
+  /// them: what keeps their field when only their mesh is left ([HT] 4.5.2). Empty for every other
+  /// kind.
+  virtual std::optional<SurfaceField> surfaceField() const { return std::nullopt; }
 
   /// What the user should know about this node itself: repairs made to its input, folds, open meshes.
   virtual std::vector<std::string> warnings() const { return {}; }

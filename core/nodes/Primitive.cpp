@@ -187,6 +187,17 @@ void Primitive::sourceLeaf(PointBatch points, std::int32_t* leaf) const
   }
 }
 
+std::optional<SurfaceField> Primitive::surfaceField() const
+{
+  if (!surfaceRadius_)
+  {
+    return std::nullopt;
+  }
+  const double scale = map_ ? std::cbrt(std::abs(map_->linear().determinant())) : 1.0;
+  return SurfaceField{ potential_.maximumField(),
+    scale * (potential_.influenceRadius() - *surfaceRadius_), potential_.exponent() };
+}
+
 Parameters Primitive::parameters() const
 {
   Parameters parameters;

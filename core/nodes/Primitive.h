@@ -48,6 +48,7 @@ public:
   Box3 influenceBounds() const override { return influenceBounds_; }
   Box3 surfaceBounds() const override { return surfaceBounds_; }
   bool isNegative() const override { return potential_.isNegative(); }
+  std::optional<SurfaceField> surfaceField() const override;
 
   const char* kind() const override { return "primitive"; }
   /// "skeleton" (its kind) with the skeleton's own, those of the potential, "map" where there is

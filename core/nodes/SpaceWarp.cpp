@@ -8,7 +8,6 @@ namespace hybridtree
 namespace
 {
 
-constexpr int kDepth = 5;
 constexpr double kTolerance = 0.01; // of the image's diagonal
 constexpr double kRounding = 1e-12;
 
@@ -42,7 +41,7 @@ Box3 widened(const Box3& box)
   return grown(box, kRounding * (box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff()));
 }
 
-Box3 boundsByCells(const Box3& box, const std::function<CellImage(const Box3&)>& imageOf)
+Box3 boundsByCells(const Box3& box, const std::function<CellImage(const Box3&)>& imageOf, int depth)
 {
   if (box.isEmpty())
   {
@@ -52,7 +51,7 @@ Box3 boundsByCells(const Box3& box, const std::function<CellImage(const Box3&)>&
   Box3 outermost;
   Box3 result;
   std::vector<Box3> cells{ box };
-  for (int depth = 0; depth <= kDepth && !cells.empty(); ++depth)
+  for (int level = 0; level <= depth && !cells.empty(); ++level)
   {
     std::vector<Box3> images;
     images.reserve(cells.size());
@@ -67,11 +66,11 @@ Box3 boundsByCells(const Box3& box, const std::function<CellImage(const Box3&)>&
     std::vector<Box3> next;
     for (std::size_t k = 0; k < cells.size(); ++k)
     {
-      if (depth == 0)
+      if (level == 0)
       {
         outermost = images[k];
       }
-      if (depth == kDepth || enough.contains(images[k]))
+      if (level == depth || enough.contains(images[k]))
       {
         result.extend(images[k]);
       }

@@ -49,9 +49,10 @@ struct CellImage
 };
 
 /// Bounds of the image of a box by branch and bound: cells that could still reach beyond the images
-/// found so far by more than 1 % of their diagonal are split, to a fixed depth. Always
+/// found so far by more than 1 % of their diagonal are split, at most `depth` times. Always
 /// conservative.
-Box3 boundsByCells(const Box3& box, const std::function<CellImage(const Box3&)>& imageOf);
+Box3 boundsByCells(
+  const Box3& box, const std::function<CellImage(const Box3&)>& imageOf, int depth = 5);
 
 /// The box grown by a few units in the last place, to make up for rounding.
 Box3 widened(const Box3& box);

@@ -441,9 +441,6 @@ TriangleMesh warpedMesh(const TriangleMesh& mesh, const SpaceWarp& warp, double 
   {
     turnInsideOut(result);
   }
-  RemeshOptions options;
-  options.edgeLength = edgeLength;
-  remeshStretched(result, options, nullptr, progress);
   if (result.normals.size() != result.points.size())
   {
     result.normals = pointNormals(result);

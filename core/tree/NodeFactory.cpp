@@ -2,8 +2,10 @@
 #include "core/tree/NodeFactory.h"
 
 #include "core/base/Error.h"
+#include "core/nodes/Barr.h"
 #include "core/nodes/Blend.h"
 #include "core/nodes/Boolean.h"
+#include "core/nodes/FreeForm.h"
 #include "core/nodes/LocalBlend.h"
 #include "core/nodes/MeshNode.h"
 #include "core/nodes/MeshNode.h"
@@ -28,6 +30,10 @@ constexpr Kind kKinds[] = {
   { "blend", blendFromParameters },
   { "localBlend", localBlendFromParameters },
   { "boolean", booleanFromParameters },
+  { "twist", twistFromParameters },
+  { "taper", taperFromParameters },
+  { "bend", bendFromParameters },
+  { "freeForm", freeFormFromParameters },
 };
 
 } // namespace
