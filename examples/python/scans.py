@@ -64,6 +64,8 @@ def convert(name, folder):
     os.makedirs(folder, exist_ok=True)
     writer = vtkXMLPolyDataWriter()
     writer.SetFileName(path)
+    # The reader of Debian 12's ParaView fails on the default, appended data (its libexpat is newer).
+    writer.SetDataModeToBinary()
     writer.SetInputData(_read_off(lines) if extension == ".off" else _read_points(lines))
     if not writer.Write():
         raise SystemExit(f"cannot write {path}")
