@@ -139,12 +139,12 @@ void MeshField::evaluateBatch(
     points = mapped.points();
   }
   ScratchArray distance(points.size);
-  // Beyond R inside, the distance is -infinity: as deep as anything below r'_T must be.
+  // Out of reach, the distance is infinite: r'_T deep or more inside, R' outside.
   distance_->signedDistance(
     points, std::max(influenceRadius_, offset_), distance.data(), gradient, part);
   for (std::size_t k = 0; k < points.size; ++k)
   {
-    distance[k] = std::max(0.0, distance[k] + offset_);
+    distance[k] = std::clamp(distance[k] + offset_, 0.0, potential_.influenceRadius());
   }
   if (!gradient.x)
   {
