@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkHybridTreeAlgorithm.h"
 
+#include "core/base/Error.h"
 #include "core/nodes/Node.h"
 #include "vtkHybridTreeArray.h"
 #include "vtkHybridTreeConvert.h"
@@ -139,31 +140,47 @@ void vtkHybridTreeAlgorithm::Run(vtkInformationVector** inputs, vtkInformationVe
   const hybridtree::FilterProgress progress(this);
   this->WriteOutput(vtkPolyData::GetData(info),
     hybridtree::requested(info) == hybridtree::Formulation::Mesh, progress);
-  this->FillOtherOutputs(*this->Internals->Node, outputs);
+  this->FillOtherOutputs(outputs);
   this->Warn(this->Internals->Node->warnings());
+}
+
+//------------------------------------------------------------------------------
+vtkHybridTreeAlgorithm::Operands vtkHybridTreeAlgorithm::ReadOperands(
+  vtkInformationVector** inputs, std::vector<std::string>& warnings)
+{
+  const auto ports = static_cast<std::size_t>(this->GetNumberOfInputPorts());
+  Operands operands(ports);
+  this->Internals->Inputs.resize(ports);
+  for (std::size_t port = 0; port < ports; ++port)
+  {
+    const int number = static_cast<int>(port);
+    const bool takesTree = this->GetInputPortInformation(number)->Get(TAKES_TREE()) != 0;
+    std::vector<hybridtree::Operand>& connections = this->Internals->Inputs[port];
+    connections.resize(static_cast<std::size_t>(inputs[port]->GetNumberOfInformationObjects()));
+    for (std::size_t k = 0; k < connections.size(); ++k)
+    {
+      vtkPolyData* input = vtkPolyData::GetData(inputs[port], static_cast<int>(k));
+      try
+      {
+        takesTree ? connections[k].read(input, warnings) : connections[k].readMesh(input, warnings);
+      }
+      catch (const hybridtree::Error& error)
+      {
+        throw hybridtree::InvalidGeometry(
+          "Input " + std::to_string(k) + " of port " + std::to_string(port) + ": " + error.what());
+      }
+      operands[port].push_back(connections[k].node());
+    }
+  }
+  return operands;
 }
 
 //------------------------------------------------------------------------------
 void vtkHybridTreeAlgorithm::UpdateNode(vtkInformationVector** inputs)
 {
   State& state = *this->Internals;
-  const auto ports = static_cast<std::size_t>(this->GetNumberOfInputPorts());
   std::vector<std::string> warnings;
-  state.Inputs.resize(ports);
-  Operands operands(ports);
-  for (std::size_t port = 0; port < ports; ++port)
-  {
-    const auto number = static_cast<int>(port);
-    const bool takesTree = this->GetInputPortInformation(number)->Get(TAKES_TREE()) != 0;
-    state.Inputs[port].resize(inputs[port]->GetNumberOfInformationObjects());
-    for (std::size_t k = 0; k < state.Inputs[port].size(); ++k)
-    {
-      hybridtree::Operand& operand = state.Inputs[port][k];
-      vtkPolyData* input = vtkPolyData::GetData(inputs[port], static_cast<int>(k));
-      takesTree ? operand.read(input, warnings) : operand.readMesh(input, warnings);
-      operands[port].push_back(operand.node());
-    }
-  }
+  Operands operands = this->ReadOperands(inputs, warnings);
   if (!state.Node || state.NodeTime != this->GetMTime() || state.NodeOperands != operands)
   {
     state.Node = nullptr;
@@ -205,7 +222,7 @@ void vtkHybridTreeAlgorithm::WriteOutput(
 }
 
 //------------------------------------------------------------------------------
-void vtkHybridTreeAlgorithm::FillOtherOutputs(const hybridtree::Node&, vtkInformationVector*) {}
+void vtkHybridTreeAlgorithm::FillOtherOutputs(vtkInformationVector*) {}
 
 //------------------------------------------------------------------------------
 void vtkHybridTreeAlgorithm::Warn(const std::vector<std::string>& warnings)

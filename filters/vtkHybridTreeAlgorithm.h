@@ -33,6 +33,7 @@
 #include "vtkPolyDataAlgorithm.h"
 
 #include <memory> // for std::shared_ptr
+#include <string> // for warnings
 #include <vector> // for Operands
 
 class vtkInformationIntegerKey;
@@ -112,7 +113,7 @@ protected:
   /**
    * Fills the output ports from 1 on, once the node is there.
    */
-  virtual void FillOtherOutputs(const hybridtree::Node& node, vtkInformationVector* outputs);
+  virtual void FillOtherOutputs(vtkInformationVector* outputs);
 #endif
 
   /**
@@ -140,7 +141,9 @@ private:
   vtkHybridTreeAlgorithm(const vtkHybridTreeAlgorithm&) = delete;
   void operator=(const vtkHybridTreeAlgorithm&) = delete;
 
+#ifndef __VTK_WRAP__
   void Run(vtkInformationVector** inputs, vtkInformationVector* outputs);
+  Operands ReadOperands(vtkInformationVector** inputs, std::vector<std::string>& warnings);
   void UpdateNode(vtkInformationVector** inputs);
   void WriteOutput(vtkPolyData* output, bool withMesh, const hybridtree::Progress& progress);
   void Warn(const std::vector<std::string>& warnings);
@@ -148,6 +151,7 @@ private:
 
   struct State;
   std::unique_ptr<State> Internals;
+#endif
   int NumberOfExecutions = 0;
   int NumberOfMeshings = 0;
 };

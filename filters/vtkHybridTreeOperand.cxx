@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkHybridTreeOperand.h"
 
-#include "core/mesh/ContentHash.h"
+#include "core/base/Error.h"
 #include "core/nodes/MeshNode.h"
 #include "core/tree/Serialize.h"
 #include "vtkHybridTreeArray.h"
@@ -15,6 +15,14 @@ namespace
 /// I and n of a plain mesh: f rises from T on the mesh to 2 T inside.
 constexpr double kPlainMaximumField = 2.0 * kThreshold;
 constexpr int kPlainExponent = 2;
+
+void requireData(vtkPolyData* input)
+{
+  if (!input)
+  {
+    throw InvalidGeometry("There is no data. Check the filter it comes from.");
+  }
+}
 
 void append(const std::vector<std::string>& from, std::vector<std::string>& to)
 {
@@ -34,6 +42,7 @@ void appendAllWarnings(const Node& node, std::vector<std::string>& to)
 
 void Operand::read(vtkPolyData* input, std::vector<std::string>& newWarnings)
 {
+  requireData(input);
   const CarriedTree carried = carriedTree(input);
   if (!carried.belongs)
   {
@@ -58,6 +67,7 @@ void Operand::read(vtkPolyData* input, std::vector<std::string>& newWarnings)
 
 void Operand::readMesh(vtkPolyData* input, std::vector<std::string>& newWarnings)
 {
+  requireData(input);
   const vtkTypeUInt64 print = fingerprint(input);
   if (!mesh_.repaired.mesh || print != fingerprint_)
   {

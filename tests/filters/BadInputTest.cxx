@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What users type and load: each fault gets an error that names it, and an empty output, or a
+// stated repair.
+#include "tests/filters/Support.h"
+
+#include "vtkCellArray.h"
+#include "vtkHybridTreeAffineTransform.h"
+#include "vtkHybridTreeBend.h"
+#include "vtkHybridTreeBlend.h"
+#include "vtkHybridTreeBox.h"
+#include "vtkHybridTreeCircle.h"
+#include "vtkHybridTreeFreeFormDeformation.h"
+#include "vtkHybridTreeMeshField.h"
+#include "vtkHybridTreeTaper.h"
+#include "vtkHybridTreeTwist.h"
+#include "vtkPointData.h"
+#include "vtkSphereSource.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace hybridtree::test
+{
+namespace
+{
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+/// Runs a filter; expects an error that has all the words, and an empty output.
+void expectError(vtkHybridTreeAlgorithm* filter, const std::vector<std::string>& words)
+{
+  const Messages messages(filter);
+  filter->Update();
+  for (const std::string& word : words)
+  {
+    EXPECT_NE(messages.errors.find(word), std::string::npos)
+      << "no \"" << word << "\" in: " << messages.errors;
+  }
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
+  EXPECT_EQ(filter->GetOutput()->GetFieldData()->GetNumberOfArrays(), 0);
+  EXPECT_FALSE(filter->GetTree());
+}
+
+/// The four corners of a tetrahedron, and its triangles.
+struct Tetrahedron
+{
+  Tetrahedron()
+  {
+    const double corners[4][3] = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } };
+    for (const auto& corner : corners)
+    {
+      points->InsertNextPoint(corner);
+    }
+    data->SetPoints(points);
+    this->addTriangle(0, 2, 1);
+    this->addTriangle(0, 1, 3);
+    this->addTriangle(1, 2, 3);
+    this->addTriangle(2, 0, 3);
+    data->SetPolys(cells);
+  }
+
+  void addTriangle(vtkIdType a, vtkIdType b, vtkIdType c)
+  {
+    const vtkIdType corners[3] = { a, b, c };
+    cells->InsertNextCell(3, corners);
+  }
+
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkCellArray> cells;
+  vtkNew<vtkPolyData> data;
+};
+
+TEST(BadInput, Parameters)
+{
+  const auto a = ball();
+  a->SetSurfaceRadius(1.0); // R = r_T
+  expectError(a, { "SurfaceRadius", "1", "InfluenceRadius" });
+  a->SetSurfaceRadius(0.5);
+  a->SetExponent(1);
+  expectError(a, { "Exponent", "1", "from 2 to 64" });
+  a->SetExponent(2);
+  a->SetInfluenceRadius(kNaN);
+  expectError(a, { "InfluenceRadius" });
+  a->SetInfluenceRadius(1.0);
+  a->SetCenter(0.0, kNaN, 0.0);
+  expectError(a, { "Center", "nan", "finite" });
+  a->SetCenter(0.0, 0.0, 0.0);
+  a->SetFieldMode(vtkHybridTreeFieldAlgorithm::MAXIMUM_FIELD);
+  a->SetMaximumField(-1.0);
+  expectError(a, { "MaximumField", "-1", "Negative" });
+  a->SetMaximumField(1.0);
+  a->Update();
+  expectSolid(a->GetOutput()); // and everything is well again
+
+  vtkNew<vtkHybridTreeCircle> circle;
+  circle->SetNormal(0.0, 0.0, 0.0);
+  expectError(circle, { "ormal", "direction" });
+}
+
+TEST(BadInput, AnEdgeLengthTooSmallNamesTheMemory)
+{
+  const auto a = ball();
+  const auto b = rod();
+  vtkNew<vtkHybridTreeBlend> blend;
+  blend->AddInputConnection(a->GetOutputPort());
+  blend->AddInputConnection(b->GetOutputPort());
+  blend->SetEdgeLength(1e-9);
+  expectError(blend, { "edge length", "MiB of memory" });
+  blend->SetEdgeLength(kNaN);
+  expectError(blend, { "EdgeLength", "finite" });
+}
+
+TEST(BadInput, FramesAndMaps)
+{
+  const auto a = ball();
+  vtkNew<vtkHybridTreeTwist> twist;
+  twist->SetInputConnection(a->GetOutputPort());
+  twist->SetAxis(0.0, 0.0, 0.0);
+  expectError(twist, { "xis" });
+  twist->SetAxis(1.0, 0.0, 0.0); // along the normal
+  expectError(twist, { "ormal" });
+  twist->SetAxis(0.0, 0.0, 1.0);
+  twist->SetRange(1.0, -1.0);
+  expectError(twist, { "ange" });
+
+  vtkNew<vtkHybridTreeTaper> taper;
+  taper->SetInputConnection(a->GetOutputPort());
+  taper->SetFactor(0.0);
+  expectError(taper, { "actor", "0" });
+
+  vtkNew<vtkHybridTreeBend> bend;
+  bend->SetInputConnection(a->GetOutputPort());
+  bend->SetAngle(400.0);
+  expectError(bend, { "ngle" });
+
+  vtkNew<vtkHybridTreeAffineTransform> map;
+  map->SetInputConnection(a->GetOutputPort());
+  map->SetScale(1.0, 0.0, 1.0);
+  expectError(map, { "Scale", "0" });
+  map->SetScale(1.0, kNaN, 1.0);
+  expectError(map, { "finite" });
+}
+
+TEST(BadInput, Lattices)
+{
+  const auto a = ball();
+  vtkNew<vtkHybridTreeFreeFormDeformation> ffd;
+  ffd->SetInputConnection(a->GetOutputPort());
+  ffd->SetLatticeDimensions(1, 3, 3);
+  expectError(ffd, { "lattice dimension", "1", "between 2 and 64" });
+  ffd->SetLatticeDimensions(3, 3, 3);
+  ffd->AddDisplacement(0, 3, 0, 1, 1, 1);
+  expectError(ffd, { "Index j of row 0", "3", "from 0 to 2" });
+  ffd->ClearDisplacements();
+  ffd->FitLatticeOff();
+  const double flat[9] = { 1, 0, 0, 0, 1, 0, 1, 1, 0 };
+  ffd->SetLatticeAxes(flat);
+  expectError(ffd, { "lattice box is flat" });
+}
+
+TEST(BadInput, PointSetsNameTheReconstruction)
+{
+  Tetrahedron shape;
+  shape.data->SetPolys(nullptr);
+  vtkNew<vtkHybridTreeBlend> blend;
+  blend->AddInputData(shape.data);
+  expectError(blend, { "Input 0 of port 0", "4 points", "HybridTree Surface Reconstruction" });
+}
+
+TEST(BadInput, EmptyData)
+{
+  vtkNew<vtkPolyData> empty;
+  vtkNew<vtkHybridTreeMeshField> field;
+  field->SetInputData(empty);
+  expectError(field, { "empty" });
+}
+
+TEST(BadInput, CoordinatesThatAreNoNumbers)
+{
+  Tetrahedron shape;
+  shape.points->SetPoint(2, 0.0, kNaN, 0.0);
+  vtkNew<vtkHybridTreeMeshField> field;
+  field->SetInputData(shape.data);
+  expectError(field, { "oint 2" });
+  shape.points->SetPoint(2, 0.0, std::numeric_limits<double>::infinity(), 0.0);
+  shape.points->Modified();
+  shape.data->Modified();
+  expectError(field, { "oint 2" });
+}
+
+TEST(BadInput, AMeshOfNothingButDegenerateTriangles)
+{
+  Tetrahedron shape;
+  shape.cells->Reset();
+  shape.addTriangle(0, 1, 1);
+  vtkNew<vtkHybridTreeMeshField> field;
+  field->SetInputData(shape.data);
+  expectError(field, { "riangle" });
+}
+
+TEST(BadInput, RepairsAreMadeAndTold)
+{
+  Tetrahedron shape;
+  shape.addTriangle(0, 2, 1); // once more
+  shape.addTriangle(0, 1, 1); // degenerate
+  vtkNew<vtkHybridTreeMeshField> field;
+  const Messages messages(field);
+  field->SetInputData(shape.data);
+  field->Update();
+  EXPECT_EQ(messages.errors, "");
+  EXPECT_NE(messages.warnings, "");
+  EXPECT_EQ(field->GetOutput()->GetNumberOfPolys(), 4);
+  expectSolid(field->GetOutput());
+}
+
+TEST(BadInput, InsideOutMeshesAreTurned)
+{
+  Tetrahedron shape;
+  shape.cells->Reset();
+  shape.addTriangle(0, 1, 2);
+  shape.addTriangle(0, 3, 1);
+  shape.addTriangle(1, 3, 2);
+  shape.addTriangle(2, 3, 0);
+  vtkNew<vtkHybridTreeMeshField> field;
+  const Messages messages(field);
+  field->SetInputData(shape.data);
+  field->Update();
+  EXPECT_NE(messages.warnings, "");
+  expectSolid(field->GetOutput());
+}
+
+TEST(BadInput, OpenAndCrowdedMeshesAreToldOnce)
+{
+  for (const bool open : { true, false })
+  {
+    Tetrahedron shape;
+    if (open)
+    {
+      shape.cells->Reset();
+      shape.addTriangle(0, 2, 1);
+      shape.addTriangle(0, 1, 3);
+      shape.addTriangle(1, 2, 3);
+    }
+    else
+    {
+      const vtkIdType fin = shape.points->InsertNextPoint(2.0, 2.0, 2.0);
+      shape.addTriangle(0, 1, fin);
+    }
+    vtkNew<vtkHybridTreeMeshField> field;
+    Messages messages(field);
+    field->SetInputData(shape.data);
+    field->Update();
+    EXPECT_EQ(messages.errors, "");
+    EXPECT_NE(messages.warnings, "") << (open ? "open" : "crowded");
+    EXPECT_GT(field->GetOutput()->GetNumberOfPolys(), 0);
+    messages.warnings.clear();
+    field->SetEdgeLength(0.3);
+    field->Update();
+    EXPECT_EQ(messages.warnings, "") << "the same node has nothing new to say";
+  }
+}
+
+TEST(BadInput, StripsPolygonsAndTheCellsBesideThem)
+{
+  // A pyramid: a concave base of five corners as one polygon, its sides as a strip and triangles.
+  vtkNew<vtkPoints> points;
+  const double corners[6][3] = { { 0, 0, 0 }, { 2, 0, 0 }, { 2, 2, 0 }, { 1, 0.5, 0 }, { 0, 2, 0 },
+    { 1, 0.25, 1 } };
+  for (const auto& corner : corners)
+  {
+    points->InsertNextPoint(corner);
+  }
+  vtkNew<vtkCellArray> verts, lines, polys, strips;
+  const vtkIdType base[5] = { 0, 4, 3, 2, 1 };
+  polys->InsertNextCell(5, base);
+  const vtkIdType sides[3][3] = { { 2, 3, 5 }, { 3, 4, 5 }, { 4, 0, 5 } };
+  for (const auto& side : sides)
+  {
+    polys->InsertNextCell(3, side);
+  }
+  const vtkIdType strip[4] = { 0, 1, 5, 2 };
+  strips->InsertNextCell(4, strip);
+  verts->InsertNextCell(1, strip);
+  lines->InsertNextCell(2, strip);
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(points);
+  data->SetVerts(verts);
+  data->SetLines(lines);
+  data->SetPolys(polys);
+  data->SetStrips(strips);
+  vtkNew<vtkHybridTreeMeshField> field;
+  const Messages messages(field);
+  field->SetInputData(data);
+  field->Update();
+  EXPECT_EQ(messages.errors + messages.warnings, "");
+  expectSolid(field->GetOutput());
+  // The base is the square less a triangle of base 2 and height 1.5.
+  EXPECT_NEAR(signedVolume(trianglesOf(field->GetOutput())), (4.0 - 1.5) / 3.0, 1e-12);
+}
+
+} // namespace
+} // namespace hybridtree::test

@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What runs when, and what is meshed: FIELD and MESH requests, caching, abort, pieces.
+#include "tests/filters/Support.h"
+
+#include "vtkAppendPolyData.h"
+#include "vtkElevationFilter.h"
+#include "vtkHybridTreeAffineTransform.h"
+#include "vtkHybridTreeArray.h"
+#include "vtkHybridTreeBlend.h"
+#include "vtkHybridTreeBoolean.h"
+#include "vtkHybridTreeMeshField.h"
+#include "vtkHybridTreeTwist.h"
+#include "vtkInformation.h"
+#include "vtkSphereSource.h"
+#include "vtkTransform.h"
+#include "vtkTransformPolyDataFilter.h"
+
+#include <gtest/gtest.h>
+
+namespace hybridtree::test
+{
+namespace
+{
+
+TEST(Pipeline, NodesBetweenAreNotMeshed)
+{
+  const auto a = ball();
+  const auto b = rod();
+  vtkNew<vtkHybridTreeBlend> blend;
+  blend->AddInputConnection(a->GetOutputPort());
+  blend->AddInputConnection(b->GetOutputPort());
+  vtkNew<vtkHybridTreeTwist> twist;
+  twist->SetInputConnection(blend->GetOutputPort());
+  twist->SetEdgeLength(0.1);
+  twist->Update();
+  for (vtkHybridTreeAlgorithm* between : { static_cast<vtkHybridTreeAlgorithm*>(a),
+         static_cast<vtkHybridTreeAlgorithm*>(b), static_cast<vtkHybridTreeAlgorithm*>(blend) })
+  {
+    EXPECT_EQ(between->GetNumberOfExecutions(), 1) << between->GetClassName();
+    EXPECT_EQ(between->GetNumberOfMeshings(), 0) << between->GetClassName();
+    EXPECT_EQ(between->GetOutput()->GetNumberOfPoints(), 0) << between->GetClassName();
+    EXPECT_TRUE(vtkHybridTreeArray::FindTree(between->GetOutput())) << between->GetClassName();
+  }
+  EXPECT_EQ(twist->GetNumberOfMeshings(), 1);
+  expectSolid(twist->GetOutput());
+}
+
+TEST(Pipeline, FieldFirstThenMesh)
+{
+  const auto a = ball();
+  vtkNew<vtkHybridTreeAffineTransform> move;
+  move->SetInputConnection(a->GetOutputPort());
+  move->Update();
+  EXPECT_EQ(a->GetNumberOfMeshings(), 0);
+  const auto tree = a->GetTree();
+
+  a->Update(); // somebody looks at it
+  EXPECT_EQ(a->GetNumberOfMeshings(), 1);
+  EXPECT_EQ(a->GetTree(), tree) << "a look must not make the tree anew";
+  expectSolid(a->GetOutput());
+
+  move->Update();
+  EXPECT_EQ(move->GetNumberOfExecutions(), 1) << "nothing has changed for it";
+}
+
+TEST(Pipeline, AMeshMadeServesALaterField)
+{
+  const auto a = ball();
+  a->Update();
+  vtkNew<vtkHybridTreeAffineTransform> move;
+  move->SetInputConnection(a->GetOutputPort());
+  move->Update();
+  EXPECT_EQ(a->GetNumberOfExecutions(), 1);
+  expectSolid(a->GetOutput());
+}
+
+TEST(Pipeline, PassThroughFiltersAreSeenThrough)
+{
+  const auto a = ball();
+  vtkNew<vtkPVPostFilter> shown;
+  shown->SetInputConnection(a->GetOutputPort());
+  vtkNew<vtkHybridTreeAffineTransform> move;
+  move->SetInputConnection(shown->GetOutputPort());
+  move->Update();
+  EXPECT_EQ(a->GetNumberOfMeshings(), 0);
+
+  shown->Update();
+  EXPECT_EQ(a->GetNumberOfMeshings(), 1);
+  expectSolid(vtkPolyData::SafeDownCast(shown->GetOutputDataObject(0)));
+}
+
+TEST(Pipeline, AFailureBesideLeavesNoRequestBehind)
+{
+  const auto good = ball();
+  const auto bad = ball();
+  bad->SetSurfaceRadius(2.0); // beyond the influence
+  const Messages messages(bad);
+  vtkNew<vtkHybridTreeBlend> blend;
+  const Messages above(blend);
+  blend->AddInputConnection(good->GetOutputPort());
+  blend->AddInputConnection(bad->GetOutputPort());
+  blend->Update();
+  EXPECT_NE(messages.errors, "");
+  good->Update();
+  expectSolid(good->GetOutput());
+}
+
+TEST(Pipeline, WhatAForeignFilterSeesIsMeshed)
+{
+  const auto a = ball();
+  vtkNew<vtkElevationFilter> foreign;
+  foreign->SetInputConnection(a->GetOutputPort());
+  vtkNew<vtkHybridTreeAffineTransform> move;
+  move->SetInputConnection(a->GetOutputPort());
+  vtkNew<vtkAppendPolyData> both;
+  both->AddInputConnection(foreign->GetOutputPort());
+  both->AddInputConnection(move->GetOutputPort());
+  both->Update();
+  const vtkIdType one = a->GetOutput()->GetNumberOfPoints();
+  EXPECT_GT(one, 0);
+  EXPECT_GT(both->GetOutput()->GetNumberOfPoints(), one);
+}
+
+TEST(Pipeline, AForeignFilterBesideInEitherOrder)
+{
+  for (const bool foreignFirst : { true, false })
+  {
+    const auto a = ball();
+    vtkNew<vtkHybridTreeAffineTransform> move;
+    move->SetInputConnection(a->GetOutputPort());
+    vtkNew<vtkTransform> shift;
+    shift->Translate(3.0, 0.0, 0.0);
+    vtkNew<vtkTransformPolyDataFilter> foreign;
+    foreign->SetTransform(shift);
+    foreign->SetInputConnection(a->GetOutputPort());
+    vtkNew<vtkHybridTreeBoolean> both;
+    both->SetInputConnection(foreignFirst ? 0 : 1, foreign->GetOutputPort());
+    both->SetInputConnection(foreignFirst ? 1 : 0, move->GetOutputPort());
+    both->SetEdgeLength(0.1);
+    both->Update();
+    expectSolid(both->GetOutput());
+    EXPECT_EQ(checkMesh(trianglesOf(both->GetOutput())).components, 2u);
+  }
+}
+
+TEST(Pipeline, AMeshFieldBesideGetsItsMesh)
+{
+  const auto a = ball();
+  vtkNew<vtkHybridTreeMeshField> leaf;
+  leaf->SetInputConnection(a->GetOutputPort());
+  vtkNew<vtkHybridTreeBlend> blend;
+  blend->AddInputConnection(leaf->GetOutputPort());
+  blend->AddInputConnection(a->GetOutputPort());
+  blend->SetEdgeLength(0.2);
+  blend->Update();
+  EXPECT_EQ(a->GetNumberOfMeshings(), 1);
+  expectSolid(blend->GetOutput());
+}
+
+TEST(Pipeline, AChangedPropertyRunsThePathToTheRoot)
+{
+  const auto a = ball();
+  const auto b = rod();
+  vtkNew<vtkHybridTreeBlend> blend;
+  blend->AddInputConnection(a->GetOutputPort());
+  blend->AddInputConnection(b->GetOutputPort());
+  blend->SetEdgeLength(0.1);
+  blend->Update();
+  const double before = signedVolume(trianglesOf(blend->GetOutput()));
+  const auto kept = b->GetTree();
+
+  a->SetSurfaceRadius(0.6);
+  blend->Update();
+  EXPECT_EQ(a->GetNumberOfExecutions(), 2);
+  EXPECT_EQ(b->GetNumberOfExecutions(), 1);
+  EXPECT_EQ(b->GetTree(), kept);
+  EXPECT_EQ(blend->GetNumberOfExecutions(), 2);
+  EXPECT_GT(signedVolume(trianglesOf(blend->GetOutput())), before);
+}
+
+TEST(Pipeline, AnEdgeLengthKeepsTheTree)
+{
+  const auto a = ball();
+  a->Update();
+  const auto tree = a->GetTree();
+  const vtkIdType coarse = a->GetOutput()->GetNumberOfPoints();
+  a->SetEdgeLength(0.05);
+  a->Update();
+  EXPECT_EQ(a->GetTree(), tree);
+  EXPECT_GT(a->GetOutput()->GetNumberOfPoints(), 2 * coarse);
+}
+
+TEST(Pipeline, AMeshInputKeepsItsLeaf)
+{
+  vtkNew<vtkSphereSource> sphere;
+  vtkNew<vtkHybridTreeAffineTransform> move;
+  move->SetInputConnection(sphere->GetOutputPort());
+  move->Update();
+  const MeshPtr leaf = move->GetTree()->leafMesh();
+  ASSERT_TRUE(leaf);
+  move->SetTranslate(1.0, 0.0, 0.0);
+  move->Update();
+  EXPECT_EQ(move->GetTree()->leafMesh(), leaf) << "dragging must not convert the mesh again";
+}
+
+TEST(Pipeline, AbortEmptiesTheOutput)
+{
+  const auto a = ball();
+  const auto b = rod();
+  vtkNew<vtkHybridTreeBlend> blend;
+  blend->AddInputConnection(a->GetOutputPort());
+  blend->AddInputConnection(b->GetOutputPort());
+  blend->SetEdgeLength(0.01);
+  const Messages messages(blend);
+  class Stop : public vtkCommand
+  {
+  public:
+    void Execute(vtkObject* caller, unsigned long, void*) override
+    {
+      static_cast<vtkAlgorithm*>(caller)->SetAbortExecute(1);
+    }
+  };
+  Stop* stop = new Stop;
+  const unsigned long tag = blend->AddObserver(vtkCommand::ProgressEvent, stop);
+  stop->Delete();
+  blend->Update();
+  EXPECT_EQ(blend->GetOutput()->GetNumberOfPoints(), 0);
+  EXPECT_EQ(messages.errors, "") << "a user's wish is no error";
+
+  blend->RemoveObserver(tag);
+  blend->SetAbortExecute(0);
+  blend->SetEdgeLength(0.1);
+  blend->Update();
+  expectSolid(blend->GetOutput());
+}
+
+TEST(Pipeline, ProgressReachesTheEndInOrder)
+{
+  const auto a = ball();
+  const auto b = rod();
+  vtkNew<vtkHybridTreeBlend> blend;
+  blend->AddInputConnection(a->GetOutputPort());
+  blend->AddInputConnection(b->GetOutputPort());
+  blend->SetEdgeLength(0.02);
+  class Record : public vtkCommand
+  {
+  public:
+    void Execute(vtkObject*, unsigned long, void* amount) override
+    {
+      Amounts.push_back(*static_cast<double*>(amount));
+    }
+    std::vector<double> Amounts;
+  };
+  Record* record = new Record;
+  blend->AddObserver(vtkCommand::ProgressEvent, record);
+  blend->Update();
+  EXPECT_GT(record->Amounts.size(), 4u);
+  EXPECT_TRUE(std::is_sorted(record->Amounts.begin(), record->Amounts.end()));
+  EXPECT_EQ(record->Amounts.back(), 1.0);
+  record->Delete();
+}
+
+TEST(Pipeline, TheFirstPieceIsEverything)
+{
+  vtkNew<vtkSphereSource> sphere;
+  vtkNew<vtkHybridTreeAffineTransform> move;
+  move->SetInputConnection(sphere->GetOutputPort());
+  move->UpdatePiece(1, 2, 0);
+  EXPECT_EQ(move->GetOutput()->GetNumberOfPoints(), 0);
+  move->UpdatePiece(0, 2, 0);
+  expectSolid(move->GetOutput());
+
+  const auto a = ball();
+  a->UpdatePiece(1, 3, 0);
+  EXPECT_EQ(a->GetOutput()->GetNumberOfPoints(), 0);
+  a->UpdatePiece(0, 3, 0);
+  expectSolid(a->GetOutput());
+}
+
+} // namespace
+} // namespace hybridtree::test
