@@ -17,6 +17,8 @@ namespace
 
 constexpr std::size_t kGrain = 512;
 constexpr double kLongEdge = 4.0 / 3.0; // edge lengths, as in remeshStretched
+constexpr double kStretch = 1.1;        // of an edge, below which its length is its own affair
+constexpr double kBow = 0.01;           // edge lengths between an edge's image and its chord
 constexpr int kMaxRounds = 24;          // each halves every long edge
 constexpr int kNewtonSteps = 8;
 
@@ -185,7 +187,37 @@ private:
     }
     std::sort(edges.begin(), edges.end());
     edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-    return edges;
+    return this->deformedOf(edges);
+  }
+
+  // Those that the warp lengthens or bows; a leaf's own long edges stay where it does neither.
+  std::vector<Edge> deformedOf(const std::vector<Edge>& edges) const
+  {
+    std::vector<Vec3> quarters; // three on each edge: an S-shaped image crosses its chord
+    quarters.reserve(3 * edges.size());
+    for (const Edge& edge : edges)
+    {
+      for (const double at : { 0.25, 0.5, 0.75 })
+      {
+        quarters.push_back((1.0 - at) * mesh_.points[edge[0]] + at * mesh_.points[edge[1]]);
+      }
+    }
+    mapForward(warp_, quarters, 0);
+    std::vector<Edge> result;
+    for (std::size_t k = 0; k < edges.size(); ++k)
+    {
+      const Vec3& a = image_[edges[k][0]];
+      const Vec3& b = image_[edges[k][1]];
+      const double bow = std::max({ (quarters[3 * k] - 0.75 * a - 0.25 * b).norm(),
+        (quarters[3 * k + 1] - 0.5 * (a + b)).norm(),
+        (quarters[3 * k + 2] - 0.25 * a - 0.75 * b).norm() });
+      const double before = (mesh_.points[edges[k][0]] - mesh_.points[edges[k][1]]).norm();
+      if (bow > kBow * edgeLength_ || (a - b).norm() > kStretch * before)
+      {
+        result.push_back(edges[k]);
+      }
+    }
+    return result;
   }
 
   void addMidpoints(const std::vector<Edge>& edges)
@@ -355,6 +387,52 @@ void turnInsideOut(TriangleMesh& mesh)
   }
 }
 
+double sideLength(const std::vector<Vec3>& points, const Triangle& triangle, int side)
+{
+  return (points[triangle[side]] - points[triangle[(side + 1) % 3]]).norm();
+}
+
+// Height over the longest side, over that side: 0 for a sliver, 0.87 for an equal-sided triangle.
+double flatness(const std::vector<Vec3>& points, const Triangle& t)
+{
+  const double longest =
+    std::max({ sideLength(points, t, 0), sideLength(points, t, 1), sideLength(points, t, 2) });
+  const double twiceArea = (points[t[1]] - points[t[0]]).cross(points[t[2]] - points[t[0]]).norm();
+  return longest > 0.0 ? twiceArea / (longest * longest) : 0.0;
+}
+
+// Whether the deformation has made any triangle clearly worse, and bad: slivers that a mesh leaf
+// came with are its own.
+bool hasBadNewShapes(const TriangleMesh& before, const std::vector<Vec3>& after)
+{
+  constexpr double kBad = 0.3;
+  constexpr double kWorse = 0.8;
+  return std::any_of(before.triangles.begin(), before.triangles.end(),
+    [&](const Triangle& triangle)
+    {
+      const double now = flatness(after, triangle);
+      return now < kBad && now < kWorse * flatness(before.points, triangle);
+    });
+}
+
+// Collapses and flips what the deformation has squeezed. Edges that are long still are so because
+// the deformation leaves them straight: they stay.
+void mendShapes(TriangleMesh& mesh, double edgeLength, const Progress& progress)
+{
+  double longest = edgeLength;
+  for (const Triangle& triangle : mesh.triangles)
+  {
+    for (int side = 0; side < 3; ++side)
+    {
+      longest = std::max(longest, sideLength(mesh.points, triangle, side) / kLongEdge);
+    }
+  }
+  RemeshOptions options;
+  options.shortEdge *= edgeLength / longest;
+  options.edgeLength = longest;
+  remeshStretched(mesh, options, nullptr, progress);
+}
+
 // One Newton step for every point of a batch that is not yet on the surface.
 void newtonStep(const FieldSource& field, PointBatch points, VectorBatch moved)
 {
@@ -436,10 +514,16 @@ TriangleMesh warpedMesh(const TriangleMesh& mesh, const SpaceWarp& warp, double 
   {
     mapNormals(warp, result.points, result.normals);
   }
-  result.points = refiner.takeImage();
+  const std::vector<Vec3> image = refiner.takeImage();
+  const bool mend = hasBadNewShapes(result, image);
+  result.points = image;
   if (volume * signedVolume(result) < 0.0)
   {
     turnInsideOut(result);
+  }
+  if (mend)
+  {
+    mendShapes(result, edgeLength, progress);
   }
   if (result.normals.size() != result.points.size())
   {

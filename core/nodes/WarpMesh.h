@@ -11,10 +11,11 @@ namespace hybridtree
 
 /// The image of a mesh under a warp ([HT] 5.4), with triangles of good shape.
 ///
-/// Edges whose image is longer than 4/3 edgeLength are first split where they are, so that the
-/// new points are exact: midpoints on triangles of a mesh leaf stay on them, others are moved onto
-/// f = T of the node. Then the points are mapped, squeezed triangles collapsed and slivers flipped
-/// (remeshStretched). Normals are J^-T n, or those of the triangles where the mesh has none.
+/// Edges whose image is longer than 4/3 edgeLength, and stretched or bowed, are first split where
+/// they are, so that the new points are exact: midpoints on triangles of a mesh leaf stay on them,
+/// others are moved onto f = T of the node. Then the points are mapped; where triangles have become
+/// much worse, squeezed ones are collapsed and slivers flipped (remeshStretched). Normals are J^-T
+/// n, or those of the triangles where the mesh has none.
 /// Provenance (sourceLeaf, sourceTriangle, vertexOrigin) follows. Orientation stays outward also
 /// when the warp mirrors.
 ///
