@@ -8,6 +8,7 @@
 #include "vtkHybridTreeFormulation.h"
 #include "vtkHybridTreeLeaves.h"
 #include "vtkHybridTreeOperand.h"
+#include "vtkHybridTreePipeline.h"
 #include "vtkHybridTreeProgress.h"
 #include "vtkInformation.h"
 #include "vtkInformationIntegerKey.h"
@@ -73,12 +74,9 @@ int vtkHybridTreeAlgorithm::FillInputPortInformation(int port, vtkInformation* i
 }
 
 //------------------------------------------------------------------------------
-int vtkHybridTreeAlgorithm::ComputePipelineMTime(
-  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs, int, vtkMTimeType* mtime)
+vtkExecutive* vtkHybridTreeAlgorithm::CreateDefaultExecutive()
 {
-  hybridtree::forgetRequest(outputs->GetInformationObject(0));
-  *mtime = this->GetMTime();
-  return 1;
+  return vtkHybridTreePipeline::New();
 }
 
 //------------------------------------------------------------------------------
@@ -98,7 +96,7 @@ int vtkHybridTreeAlgorithm::RequestUpdateExtent(
 {
   for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
   {
-    hybridtree::askProducers(this, port, inputs);
+    hybridtree::askWhole(port, inputs);
   }
   return 1;
 }

@@ -67,8 +67,8 @@ public:
   };
 
   /**
-   * What a consumer needs of a node: MESH, or FIELD when the tree will do. Asked upstream in
-   * RequestUpdateExtent; a mesh already made satisfies a later FIELD.
+   * What a consumer needs of a node: MESH, or FIELD when the tree will do. Asked while a request
+   * travels upstream; a mesh already made satisfies a later FIELD.
    */
   static vtkInformationIntegerRequestKey* FORMULATION();
 
@@ -132,8 +132,7 @@ protected:
     vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
   int RequestData(
     vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
-  int ComputePipelineMTime(vtkInformation* request, vtkInformationVector** inputs,
-    vtkInformationVector* outputs, int requestFromOutputPort, vtkMTimeType* mtime) override;
+  vtkExecutive* CreateDefaultExecutive() override;
 
   double EdgeLength = 0.0;
 

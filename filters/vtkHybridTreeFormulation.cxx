@@ -3,10 +3,8 @@
 
 #include "vtkAlgorithm.h"
 #include "vtkAlgorithmOutput.h"
-#include "vtkExecutive.h"
 #include "vtkHybridTreeAlgorithm.h"
 #include "vtkInformation.h"
-#include "vtkInformationExecutivePortVectorKey.h"
 #include "vtkInformationIntegerKey.h"
 #include "vtkInformationIntegerRequestKey.h"
 #include "vtkInformationVector.h"
@@ -39,56 +37,41 @@ bool passesThrough(vtkAlgorithm* algorithm)
   return algorithm->IsA("vtkPVPostFilter");
 }
 
-bool takesTree(vtkAlgorithm* algorithm, int port)
+bool takesTree(vtkAlgorithm* consumer, int port)
 {
-  return algorithm->GetInputPortInformation(port)->Get(vtkHybridTreeAlgorithm::TAKES_TREE()) != 0;
+  return consumer->GetInputPortInformation(port)->Get(vtkHybridTreeAlgorithm::TAKES_TREE()) != 0;
 }
 
-/// The end of a pipeline with one input only. An update that starts here reaches no consumer
-/// beside.
-bool isLoneSink(vtkAlgorithm* algorithm)
+vtkInformation* informationOf(vtkAlgorithmOutput* output)
 {
-  return (algorithm->GetNumberOfOutputPorts() == 0 || algorithm->IsA("vtkDataRepresentation")) &&
-    algorithm->GetTotalNumberOfInputConnections() == 1;
+  return output->GetProducer()->GetOutputInformation(output->GetIndex());
 }
 
-/// No consumer of this output can need its mesh in an update that also serves a taker of trees.
-bool onlyTreesAreTaken(vtkInformation* output)
+/// Information of every output from this one up to that of a node filter, pass-through filters
+/// between; empty when no node filter is there.
+std::vector<vtkInformation*> pathToNode(vtkAlgorithmOutput* output)
 {
-  vtkExecutive** executives = vtkExecutive::CONSUMERS()->GetExecutives(output);
-  int* ports = vtkExecutive::CONSUMERS()->GetPorts(output);
-  const int count = vtkExecutive::CONSUMERS()->Length(output);
-  for (int k = 0; k < count; ++k)
+  std::vector<vtkInformation*> path;
+  while (output && passesThrough(output->GetProducer()))
   {
-    vtkAlgorithm* consumer = executives[k]->GetAlgorithm();
-    const bool fine = passesThrough(consumer)
-      ? onlyTreesAreTaken(executives[k]->GetOutputInformation(0))
-      : takesTree(consumer, ports[k]) || isLoneSink(consumer);
-    if (!fine)
-    {
-      return false;
-    }
+    path.push_back(informationOf(output));
+    vtkAlgorithm* filter = output->GetProducer();
+    output =
+      filter->GetNumberOfInputConnections(0) > 0 ? filter->GetInputConnection(0, 0) : nullptr;
   }
-  return true;
+  const bool isNode = output && output->GetIndex() == 0 &&
+    vtkHybridTreeAlgorithm::SafeDownCast(output->GetProducer()) != nullptr;
+  if (!isNode)
+  {
+    return {};
+  }
+  path.push_back(informationOf(output));
+  return path;
 }
 
-/// Output information of the node filter that an input connection comes from, as seen through
-/// pass-through filters; null when anything else is there.
-vtkInformation* nodeOutput(vtkAlgorithm* consumer, int port, int connection)
+void ask(vtkInformation* output, Formulation formulation)
 {
-  vtkAlgorithmOutput* source = consumer->GetInputConnection(port, connection);
-  while (source && passesThrough(source->GetProducer()))
-  {
-    source = source->GetProducer()->GetNumberOfInputConnections(0) > 0
-      ? source->GetProducer()->GetInputConnection(0, 0)
-      : nullptr;
-  }
-  if (!source || source->GetIndex() != 0 ||
-    !vtkHybridTreeAlgorithm::SafeDownCast(source->GetProducer()))
-  {
-    return nullptr;
-  }
-  return source->GetProducer()->GetOutputInformation(0);
+  output->Set(formulationKey(), static_cast<int>(formulation));
 }
 
 } // namespace
@@ -99,37 +82,46 @@ vtkInformationIntegerRequestKey* formulationKey()
   return key;
 }
 
-void askProducers(vtkAlgorithm* consumer, int port, vtkInformationVector** inputs)
+FormulationRequest::FormulationRequest(vtkAlgorithm* consumer, int port, int connection)
 {
-  using Pipeline = vtkStreamingDemandDrivenPipeline;
-  for (int k = 0; k < consumer->GetNumberOfInputConnections(port); ++k)
+  vtkAlgorithmOutput* producer = consumer->GetInputConnection(port, connection);
+  if (!producer)
   {
-    vtkInformation* input = inputs[port]->GetInformationObject(k);
-    vtkInformation* origin = takesTree(consumer, port) ? nodeOutput(consumer, port, k) : nullptr;
-    const bool field = origin && onlyTreesAreTaken(origin);
-    input->Set(formulationKey(), static_cast<int>(field ? Formulation::Field : Formulation::Mesh));
-    input->Set(Pipeline::UPDATE_PIECE_NUMBER(), 0);
-    input->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), 1);
-    input->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+    return;
+  }
+  if (takesTree(consumer, port))
+  {
+    asked_ = pathToNode(producer);
+  }
+  for (vtkInformation* output : asked_)
+  {
+    ask(output, Formulation::Field);
+  }
+  if (asked_.empty())
+  {
+    // The executive copies what is asked of the consumer to its inputs by default.
+    asked_ = { informationOf(producer) };
+    ask(asked_.front(), Formulation::Mesh);
   }
 }
 
-void askMesh(vtkInformation* input)
+FormulationRequest::~FormulationRequest()
 {
-  input->Set(formulationKey(), static_cast<int>(Formulation::Mesh));
+  for (vtkInformation* output : asked_)
+  {
+    ask(output, Formulation::Mesh);
+  }
 }
 
-void forgetRequest(vtkInformation* output)
+void askWhole(int port, vtkInformationVector** inputs)
 {
-  output->Set(formulationKey(), static_cast<int>(Formulation::Mesh));
-  vtkExecutive** executives = vtkExecutive::CONSUMERS()->GetExecutives(output);
-  const int count = vtkExecutive::CONSUMERS()->Length(output);
-  for (int k = 0; k < count; ++k)
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  for (int k = 0; k < inputs[port]->GetNumberOfInformationObjects(); ++k)
   {
-    if (passesThrough(executives[k]->GetAlgorithm()))
-    {
-      forgetRequest(executives[k]->GetOutputInformation(0));
-    }
+    vtkInformation* input = inputs[port]->GetInformationObject(k);
+    input->Set(Pipeline::UPDATE_PIECE_NUMBER(), 0);
+    input->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), 1);
+    input->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
   }
 }
 

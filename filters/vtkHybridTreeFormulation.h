@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Private: how a filter asks its producers for FIELD or MESH, and what keeps that right.
 //
-// The request is a key on the information that producer and consumer share. Such a key outlives the
-// update that set it and says nothing of who else looks at the same output, so three rules go with
-// it:
-// - Every update starts from MESH: a producer sets its own key back whenever its modification time
-// is
-//   asked for, which is how each update begins.
-// - FIELD is asked only where nobody but takers of trees can see the output in the same update.
-// - Data made as MESH also serves a later request for FIELD.
+// The request is a key on the information that a producer shares with all its consumers. A key that
+// stayed there would speak for consumers that never asked, and for updates to come. So it says
+// FIELD only while the request of a taker of trees travels up that one connection, and MESH at all
+// other times (FormulationRequest). A view, a writer or a foreign filter never finds anything but
+// MESH, and an output made as FIELD is made again for it. Data made as MESH also serves a later
+// FIELD.
 #ifndef vtkHybridTreeFormulation_h
 #define vtkHybridTreeFormulation_h
+
+#include <vector>
 
 class vtkAlgorithm;
 class vtkInformation;
@@ -29,17 +29,23 @@ enum class Formulation
 /// The one key of this kind.
 vtkInformationIntegerRequestKey* formulationKey();
 
-/// For RequestUpdateExtent of a consumer: asks each producer at this port for FIELD where the port
-/// takes trees and the rules allow it, else for MESH; and for the whole data as one piece, since no
-/// node can be made of part of its operands.
-void askProducers(vtkAlgorithm* consumer, int port, vtkInformationVector** inputs);
+/// For as long as it lives, asks the producer at one input connection for FIELD, if the port takes
+/// trees and the producer, seen through pass-through filters, is a node filter. Else for MESH.
+class FormulationRequest
+{
+public:
+  FormulationRequest(vtkAlgorithm* consumer, int port, int connection);
+  ~FormulationRequest();
+  FormulationRequest(const FormulationRequest&) = delete;
+  FormulationRequest& operator=(const FormulationRequest&) = delete;
 
-/// For RequestUpdateExtent of a consumer whose input is no operand: says that it wants the mesh.
-void askMesh(vtkInformation* input);
+private:
+  std::vector<vtkInformation*> asked_;
+};
 
-/// For ComputePipelineMTime of a producer: takes back what an earlier update has asked of this
-/// output, also from the pass-through filters behind it.
-void forgetRequest(vtkInformation* output);
+/// For RequestUpdateExtent of a consumer: asks at this port for the whole data as one piece, since
+/// no node can be made of part of its operands.
+void askWhole(int port, vtkInformationVector** inputs);
 
 /// What is asked of this output in the update under way.
 Formulation requested(vtkInformation* output);

@@ -9,6 +9,7 @@
 #include "vtkHybridTreeAlgorithm.h"
 #include "vtkHybridTreeFormulation.h"
 #include "vtkHybridTreeOperand.h"
+#include "vtkHybridTreePipeline.h"
 #include "vtkHybridTreeProgress.h"
 #include "vtkInformation.h"
 #include "vtkInformationIntegerKey.h"
@@ -123,6 +124,12 @@ vtkHybridTreeProbe::vtkHybridTreeProbe() : Internals(new State)
 vtkHybridTreeProbe::~vtkHybridTreeProbe() = default;
 
 //------------------------------------------------------------------------------
+vtkExecutive* vtkHybridTreeProbe::CreateDefaultExecutive()
+{
+  return vtkHybridTreePipeline::New();
+}
+
+//------------------------------------------------------------------------------
 int vtkHybridTreeProbe::FillInputPortInformation(int port, vtkInformation* info)
 {
   if (port == 0)
@@ -175,8 +182,7 @@ int vtkHybridTreeProbe::RequestInformation(
 int vtkHybridTreeProbe::RequestUpdateExtent(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector*)
 {
-  hybridtree::askProducers(this, 0, inputs);
-  hybridtree::askMesh(inputs[1]->GetInformationObject(0));
+  hybridtree::askWhole(0, inputs);
   return 1;
 }
 

@@ -34,6 +34,7 @@ protected:
   vtkHybridTreeProbe();
   ~vtkHybridTreeProbe() override;
 
+  vtkExecutive* CreateDefaultExecutive() override;
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestDataObject(
     vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
