@@ -28,3 +28,54 @@ check_closed(kitten, "1 reconstructed kitten")
 
 # 2. Two handles. The scan gets a field of its own, wide enough to meet the handles.
 body = HybridTreeMeshField(registrationName="body", Input=kitten, InfluenceRadius=0.08)
+handles = HybridTreeBoolean(
+    registrationName="handles",
+    Operation="Union",
+    A=HybridTreeCircle(Center=[-0.24, -0.02, 0.02], Normal=[0, 0, 1], Radius=0.17, SurfaceRadius=0.035, InfluenceRadius=0.1),
+    B=HybridTreeCircle(Center=[0.26, -0.02, 0.02], Normal=[0, 0, 1], Radius=0.17, SurfaceRadius=0.035, InfluenceRadius=0.1),
+)
+region = HybridTreeBox(
+    registrationName="region", Center=[0, -0.02, 0.02], Lengths=[0.56, 0.4, 0.2], SurfaceRadius=0.02, InfluenceRadius=0.08
+)
+jug = HybridTreeLocalBlend(registrationName="jug", A=body, B=handles, Region=region, EdgeLength=0.008)
+picture(view, jug, os.path.join(folder, "2-handles.png"))
+check_closed(jug, "2 kitten with handles")
+
+# 3. A Boolean with a triangle mesh: an elephant, shrunk and turned, half sunk into the side.
+elephant = XMLPolyDataReader(registrationName="elephant", FileName=[convert("meshes/elephant.off", folder)])
+placed = HybridTreeAffineTransform(
+    registrationName="placed elephant", Input=elephant, Scale=[0.35, 0.35, 0.35], Rotate=[0, 40, 0], Translate=[0.02, -0.2, 0.26]
+)
+carved = HybridTreeBoolean(registrationName="carved", A=jug, B=placed, Operation="Difference A - B", EdgeLength=0.008)
+picture(view, carved, os.path.join(folder, "3-carved.png"))
+check_closed(carved, "3 carved kitten")
+
+# 4. A free-form deformation: the top row of control points leans over and grows.
+displacements = []
+for i in range(3):
+    for k in range(3):
+        displacements += [i, 3, k, 0.18 + 0.06 * (i - 1), 0.06, 0.08 * (k - 1)]
+        displacements += [i, 2, k, 0.05, 0.0, 0.0]
+leaning = HybridTreeFreeFormDeformation(
+    registrationName="leaning", Input=carved, LatticeDimensions=[3, 4, 3], Displacements=displacements, EdgeLength=0.008
+)
+lattice = OutputPort(leaning, 1)
+picture(
+    view, leaning, os.path.join(folder, "4-deformed.png"), colour=GLAZE,
+    extra=[(lattice, {"Representation": "Wireframe", "AmbientColor": [0.25, 0.25, 0.3], "LineWidth": 1.5})],
+)
+check_closed(leaning, "4 deformed kitten")
+picture(view, leaning, os.path.join(folder, "jug.png"), colour=GLAZE)
+
+SaveData(os.path.join(folder, "jug.vtp"), proxy=leaning)
+SaveData(os.path.join(folder, "jug.stl"), proxy=leaning)
+SaveState(os.path.join(folder, "jug.pvsm"))
+
+# The file is the model: open it, and it can still be blended, cut and bent.
+again = XMLPolyDataReader(registrationName="reloaded", FileName=[os.path.join(folder, "jug.vtp")])
+drilled = HybridTreeBoolean(
+    registrationName="drilled", A=again, Operation="Difference A - B", EdgeLength=0.008,
+    B=HybridTreeSegment(Point1=[0.1, 0.25, -1], Point2=[0.1, 0.25, 1], SurfaceRadius=0.04, InfluenceRadius=0.1),
+)
+picture(view, drilled, os.path.join(folder, "5-reloaded-and-drilled.png"), colour=GLAZE)
+check_closed(drilled, "5 reloaded and drilled")
