@@ -9,7 +9,7 @@ namespace hybridtree
 /// Mesh of any node from its field alone: polygonize() with cells of side `edgeLength` over the
 /// node's surface bounds, and the leaf of each triangle from Node::sourceLeaf() at its centroid.
 ///
-/// The lengths of the edges vary from 0 to sqrt(3) edgeLength, 0.7 edgeLength on average.
+/// The lengths of the edges vary from 0 to sqrt(3) edgeLength, 0.95 edgeLength on average.
 /// Empty for a negative node and where the field stays below T.
 /// \throws InvalidParameter, TooLarge, Cancelled as polygonize().
 TriangleMesh latticeMesh(

@@ -13,7 +13,7 @@ namespace hybridtree
 struct PolygonizeOptions
 {
   /// Side of a lattice cell, world units, finite and > 0. Edges of the mesh are at most sqrt(3) and
-  /// on average 0.7 of it.
+  /// on average 0.95 of it.
   double cellSize = 0.0;
   /// Memory the work and the mesh may take together.
   std::size_t maxBytes = std::size_t(8) << 30;
