@@ -3,11 +3,14 @@
 
 #include "core/base/Error.h"
 #include "core/base/Scratch.h"
+#include "core/mesh/Remesh.h"
+#include "core/nodes/LatticeMesh.h"
 #include "core/skeletons/SkeletonFactory.h"
+
+#include <Eigen/SVD>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace hybridtree
 {
@@ -41,6 +44,13 @@ private:
 double roundingAt(const Box3& box)
 {
   return 1e-14 * (box.min().cwiseAbs().maxCoeff() + box.max().cwiseAbs().maxCoeff());
+}
+
+// The middle one of the factors by which the map stretches three directions at right angles. A mesh
+// made finer by it comes out about right in two of them, and is split or thinned in the third.
+double middleStretch(const std::optional<Affine3>& map)
+{
+  return map ? Eigen::JacobiSVD<Mat3>(map->linear()).singularValues()[1] : 1.0;
 }
 
 } // namespace
@@ -217,12 +227,67 @@ Parameters Primitive::parameters() const
 
 TriangleMesh Primitive::makeMesh(double edgeLength, const Progress& progress) const
 {
-  static_cast<void>(progress);
   if (!this->hasSurface())
   {
     return {};
   }
-  return skeleton_->offsetMesh(*surfaceRadius_, edgeLength).value_or(TriangleMesh());
+  progress.check();
+  std::optional<TriangleMesh> direct =
+    skeleton_->offsetMesh(*surfaceRadius_, edgeLength / middleStretch(map_));
+  if (!direct)
+  {
+    return latticeMesh(*this, edgeLength, progress);
+  }
+  TriangleMesh mesh = std::move(*direct);
+  mesh.sourceLeaf.assign(mesh.triangles.size(), 0);
+  if (map_)
+  {
+    this->mapMesh(mesh);
+    RemeshOptions options;
+    options.edgeLength = edgeLength;
+    remeshStretched(
+      mesh, options,
+      [this](std::vector<Vec3>& points, std::vector<Vec3>& normals)
+      { this->projectOntoSurface(points, normals); },
+      progress);
+  }
+  return mesh;
+}
+
+void Primitive::mapMesh(TriangleMesh& mesh) const
+{
+  const Mat3 toNormals = inverse_.linear().transpose();
+  for (std::size_t k = 0; k < mesh.points.size(); ++k)
+  {
+    mesh.points[k] = *map_ * mesh.points[k];
+    mesh.normals[k] = (toNormals * mesh.normals[k]).normalized();
+  }
+  if (map_->linear().determinant() < 0.0)
+  {
+    for (Triangle& triangle : mesh.triangles)
+    {
+      std::swap(triangle[1], triangle[2]);
+    }
+  }
+}
+
+void Primitive::projectOntoSurface(std::vector<Vec3>& points, std::vector<Vec3>& normals) const
+{
+  const Affine3 map = map_.value_or(Affine3::Identity());
+  for (std::size_t k = 0; k < points.size(); ++k)
+  {
+    const Vec3 p = inverse_ * points[k];
+    double distance;
+    Vec3 outward;
+    skeleton_->distanceAndGradient(
+      { &p.x(), &p.y(), &p.z(), 1 }, &distance, { &outward.x(), &outward.y(), &outward.z() });
+    points[k] = map * Vec3(p - (distance - *surfaceRadius_) * outward);
+    // On a sharp box the interpolated normals are those to keep.
+    if (*surfaceRadius_ > 0.0 && distance > 0.0)
+    {
+      normals[k] = (inverse_.linear().transpose() * outward).normalized();
+    }
+  }
 }
 
 NodePtr Primitive::makeAffine(const Affine3& map) const

@@ -56,12 +56,18 @@ public:
   Parameters parameters() const override;
 
 protected:
+  /// The skeleton's direct mesh ([HT] 5.1), mapped and mended where there is a matrix; the
+  /// lattice's for offsets that meet themselves.
   TriangleMesh makeMesh(double edgeLength, const Progress& progress) const override;
   NodePtr makeAffine(const Affine3& map) const override;
 
 private:
   bool hasSurface() const { return surfaceRadius_ && !this->isNegative(); }
   Box3 offsetBounds(double radius) const;
+
+  /// From the leaf's own space to that of the node.
+  void mapMesh(TriangleMesh& mesh) const;
+  void projectOntoSurface(std::vector<Vec3>& points, std::vector<Vec3>& normals) const;
 
   SkeletonPtr skeleton_;
   Potential potential_;

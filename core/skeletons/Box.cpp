@@ -45,8 +45,8 @@ std::optional<TriangleMesh> BoxSkeleton::offsetMesh(double radius, double edgeLe
   {
     return meshRoundedBox(shape_, radius, edgeLength);
   }
-  // Flat, it encloses nothing.
-  return shape_.half.minCoeff() > 0.0 ? meshSharpBox(shape_, edgeLength) : TriangleMesh();
+  const bool flat = shape_.half.minCoeff() == 0.0; // encloses nothing
+  return flat ? TriangleMesh() : meshSharpBox(shape_, edgeLength);
 }
 
 SkeletonPtr BoxSkeleton::similarityImage(const Affine3& map, double scale) const

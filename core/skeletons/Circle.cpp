@@ -75,6 +75,10 @@ Box3 CircleSkeleton::bounds() const
 
 std::optional<TriangleMesh> CircleSkeleton::offsetMesh(double offset, double edgeLength) const
 {
+  if (offset == 0.0)
+  {
+    return TriangleMesh(); // encloses nothing
+  }
   if (shape_.radius == 0.0)
   {
     return meshRoundedBox({ shape_.center, Mat3::Identity(), Vec3::Zero() }, offset, edgeLength);

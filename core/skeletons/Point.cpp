@@ -29,6 +29,10 @@ Box3 PointSkeleton::bounds() const
 
 std::optional<TriangleMesh> PointSkeleton::offsetMesh(double radius, double edgeLength) const
 {
+  if (radius == 0.0)
+  {
+    return TriangleMesh(); // encloses nothing
+  }
   return meshRoundedBox({ shape_.center, Mat3::Identity(), Vec3::Zero() }, radius, edgeLength);
 }
 

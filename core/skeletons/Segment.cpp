@@ -37,6 +37,10 @@ Box3 SegmentSkeleton::bounds() const
 
 std::optional<TriangleMesh> SegmentSkeleton::offsetMesh(double radius, double edgeLength) const
 {
+  if (radius == 0.0)
+  {
+    return TriangleMesh(); // encloses nothing
+  }
   const double length = shape_.edge.stableNorm();
   Mat3 axes = Mat3::Identity();
   if (length > 0.0)

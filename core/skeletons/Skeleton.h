@@ -52,8 +52,9 @@ public:
 
   /// Closed 2-manifold mesh of the surface at `radius` from the skeleton, made directly ([HT] 5.1):
   /// edges <= edgeLength where the shape allows, vertices on the surface, exact normals.
-  /// Empty when this skeleton has no direct mesh for these values (a self-meeting offset): the
-  /// caller then uses the lattice. \pre radius >= 0 (0 only for volume skeletons), edgeLength > 0.
+  /// No value when this skeleton has no direct mesh for these values (a self-meeting offset): the
+  /// caller then uses the lattice. An empty mesh where nothing is enclosed: radius 0 around a
+  /// curve. \pre radius >= 0, edgeLength > 0. \throws TooLarge, naming the number of triangles.
   virtual std::optional<TriangleMesh> offsetMesh(double radius, double edgeLength) const = 0;
 
   /// This skeleton under a similarity of scale `scale`: again one of the same kind.
