@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "reconstruction/Convection.h"
+
+#include "reconstruction/FacetSize.h"
+#include "reconstruction/Front.h"
+#include "reconstruction/Regions.h"
+#include "reconstruction/SolidRepair.h"
+#include "reconstruction/Tetrahedralization.h"
+
+#include "core/base/Error.h"
+
+#include <cmath>
+
+namespace hybridtree
+{
+namespace
+{
+
+// Facets of less than this size may be part of the surface.
+constexpr double kWide = 1.0;
+
+void appendBoundary(const Tetrahedralization& tetrahedra, const std::vector<std::uint8_t>& inside,
+  ReconstructedSurface& surface)
+{
+  std::vector<std::int32_t> meshPoint(tetrahedra.points().size(), -1);
+  TriangleMesh& mesh = surface.mesh;
+  for (std::int32_t cell = 0; cell < tetrahedra.finiteCellCount(); ++cell)
+  {
+    for (int facet = 0; inside[cell] && facet < 4; ++facet)
+    {
+      if (inside[tetrahedra.neighbor(cell, facet)])
+      {
+        continue;
+      }
+      Triangle triangle = tetrahedra.facet(cell, facet);
+      for (std::int32_t& corner : triangle)
+      {
+        std::int32_t& point = meshPoint[corner];
+        if (point < 0)
+        {
+          point = static_cast<std::int32_t>(mesh.points.size());
+          mesh.points.push_back(tetrahedra.points()[corner]);
+          surface.pointIds.push_back(corner);
+        }
+        corner = point;
+      }
+      mesh.triangles.push_back(triangle);
+    }
+  }
+}
+
+void computeNormals(TriangleMesh& mesh)
+{
+  mesh.normals.assign(mesh.points.size(), Vec3::Zero());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+  {
+    const Vec3 normal = areaNormal(mesh, t);
+    for (const std::int32_t corner : mesh.triangles[t])
+    {
+      mesh.normals[corner] += normal;
+    }
+  }
+  for (Vec3& normal : mesh.normals)
+  {
+    normal.normalize();
+  }
+}
+
+} // namespace
+
+ReconstructedSurface reconstruct(
+  const std::vector<Vec3>& points, const ConvectionOptions& options, const Progress& progress)
+{
+  if (!(options.pocketFactor > 1.0) || !std::isfinite(options.pocketFactor))
+  {
+    throw InvalidParameter("pocketFactor", options.pocketFactor, "a finite number above 1");
+  }
+  const Tetrahedralization tetrahedra(points, ProgressPart(progress, 0.0, 0.6));
+  const FacetSize sizes(tetrahedra);
+  const std::vector<Region> regions = findRegions(tetrahedra, sizes, kWide, options.pocketFactor);
+  Front front(tetrahedra, sizes, regions);
+  front.run(options.openPockets, ProgressPart(progress, 0.6, 0.9));
+  std::vector<std::uint8_t> inside = front.inside();
+  repairSolid(tetrahedra, inside);
+  progress.check();
+  progress.report(0.95);
+
+  ReconstructedSurface surface;
+  appendBoundary(tetrahedra, inside, surface);
+  computeNormals(surface.mesh);
+  return surface;
+}
+
+} // namespace hybridtree

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "core/base/Progress.h"
+#include "core/base/Types.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace hybridtree
+{
+
+/// Cleaning and thinning of point sets, on PCL. Each function takes a choice of the points by index
+/// and returns those that stay, in the order given, so that whatever belongs to a point can follow.
+/// PCL computes in float: it is given points moved and scaled into a box around 0, never the
+/// points themselves, and gives back indices.
+/// All throw InvalidGeometry for a chosen point that is not finite, Cancelled, and
+/// InvalidParameter.
+
+/// All points: 0, 1, ...
+std::vector<std::int32_t> allPoints(const std::vector<Vec3>& points);
+
+/// Of points with exactly equal coordinates, the first.
+std::vector<std::int32_t> withoutDuplicates(
+  const std::vector<Vec3>& points, const std::vector<std::int32_t>& chosen);
+
+/// Statistical outlier removal: drops points whose mean distance to their nearest neighbours is
+/// more than `deviation` standard deviations above the mean of all points'.
+/// \param neighbors >= 1. \param deviation >= 0, in standard deviations.
+std::vector<std::int32_t> withoutOutliers(const std::vector<Vec3>& points,
+  const std::vector<std::int32_t>& chosen, int neighbors, double deviation,
+  const Progress& progress = Progress::none());
+
+/// A subset of the points, no two of which are closer than `spacing` (up to float rounding), while
+/// every point is within `spacing` of one that stays. 0 keeps all.
+/// \param spacing world units, finite, >= 0.
+std::vector<std::int32_t> thinned(const std::vector<Vec3>& points,
+  const std::vector<std::int32_t>& chosen, double spacing,
+  const Progress& progress = Progress::none());
+
+/// Per chosen point: points per unit area around it, on the assumption that they sample a surface:
+/// k / (pi d^2), d the distance to the k-th neighbour. Infinite where k points coincide.
+/// \param neighbors k >= 1; fewer when there are fewer points.
+std::vector<double> surfaceDensity(const std::vector<Vec3>& points,
+  const std::vector<std::int32_t>& chosen, int neighbors,
+  const Progress& progress = Progress::none());
+
+} // namespace hybridtree

@@ -1,0 +1,322 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "reconstruction/SolidRepair.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace hybridtree
+{
+namespace
+{
+
+// Cells around one vertex in clumps: those on the same side that hang together by facets.
+struct Clump
+{
+  std::vector<std::int32_t> cells;
+  double volume = 0.0;
+  bool inside = false;
+};
+
+class SolidRepair
+{
+public:
+  SolidRepair(const Tetrahedralization& tetrahedra, std::vector<std::uint8_t>& inside)
+    : tetrahedra_(tetrahedra)
+    , inside_(inside)
+    , flips_(inside.size(), 0)
+    , waiting_(tetrahedra.points().size(), 0)
+  {
+  }
+
+  std::size_t run()
+  {
+    this->removeCrumbsAndVoids();
+    for (leastGain_ = 1; leastGain_ >= -3; --leastGain_)
+    {
+      this->mendVertices(&SolidRepair::changeBest);
+    }
+
+    this->mendVertices(&SolidRepair::fillStar);
+
+    this->removeCrumbsAndVoids();
+    return changes_;
+  }
+
+private:
+  using Mend = void (SolidRepair::*)(std::int32_t, const std::vector<Clump>&);
+
+  void mendVertices(Mend mend);
+  void changeBest(std::int32_t vertex, const std::vector<Clump>& clumps);
+  bool mayChange(const Clump& clump) const;
+  long gain(const Clump& clump);
+  void change(const Clump& clump);
+  void fillStar(std::int32_t vertex, const std::vector<Clump>& clumps);
+  std::vector<Clump> clumpsAround(std::int32_t vertex) const;
+  double volume(std::int32_t cell) const;
+  void setSide(std::int32_t cell, bool inside);
+  void await(std::int32_t vertex);
+  void removeCrumbsAndVoids();
+
+  const Tetrahedralization& tetrahedra_;
+  std::vector<std::uint8_t>& inside_;
+  std::vector<std::uint8_t> flips_;
+  std::vector<std::uint8_t> waiting_;
+  std::vector<std::int32_t> vertices_;
+  std::size_t changes_ = 0;
+  long leastGain_ = 1;
+};
+
+double SolidRepair::volume(std::int32_t cell) const
+{
+  if (!tetrahedra_.finite(cell))
+  {
+    return std::numeric_limits<double>::infinity();
+  }
+  const auto& v = tetrahedra_.cell(cell);
+  const auto& p = tetrahedra_.points();
+  return std::abs((p[v[1]] - p[v[0]]).cross(p[v[2]] - p[v[0]]).dot(p[v[3]] - p[v[0]])) / 6.0;
+}
+
+std::vector<Clump> SolidRepair::clumpsAround(std::int32_t vertex) const
+{
+  const auto star = tetrahedra_.star(vertex);
+  std::vector<std::int32_t> rest(star.begin(), star.end());
+  std::vector<Clump> clumps;
+  while (!rest.empty())
+  {
+    Clump clump;
+    clump.cells.push_back(rest.back());
+    rest.pop_back();
+    clump.inside = inside_[clump.cells.front()] != 0;
+    for (std::size_t k = 0; k < clump.cells.size(); ++k)
+    {
+      const std::int32_t cell = clump.cells[k];
+      clump.volume += this->volume(cell);
+      for (int facet = 0; facet < 4; ++facet)
+      {
+        const std::int32_t beyond = tetrahedra_.neighbor(cell, facet);
+        const auto place = std::find(rest.begin(), rest.end(), beyond);
+        if (place != rest.end() && (inside_[beyond] != 0) == clump.inside)
+        {
+          clump.cells.push_back(beyond);
+          *place = rest.back();
+          rest.pop_back();
+        }
+      }
+    }
+    clumps.push_back(std::move(clump));
+  }
+  return clumps;
+}
+
+void SolidRepair::await(std::int32_t vertex)
+{
+  if (vertex != Tetrahedralization::kInfinite && !waiting_[vertex])
+  {
+    waiting_[vertex] = 1;
+    vertices_.push_back(vertex);
+  }
+}
+
+void SolidRepair::setSide(std::int32_t cell, bool inside)
+{
+  inside_[cell] = inside ? 1 : 0;
+  flips_[cell] = static_cast<std::uint8_t>(std::min(flips_[cell] + 1, 255));
+  ++changes_;
+  for (const std::int32_t vertex : tetrahedra_.cell(cell))
+  {
+    this->await(vertex);
+  }
+}
+
+void SolidRepair::mendVertices(Mend mend)
+{
+  for (std::size_t v = tetrahedra_.points().size(); v > 0; --v)
+  {
+    this->await(static_cast<std::int32_t>(v - 1));
+  }
+  while (!vertices_.empty())
+  {
+    const std::int32_t vertex = vertices_.back();
+    vertices_.pop_back();
+    waiting_[vertex] = 0;
+    const std::vector<Clump> clumps = this->clumpsAround(vertex);
+    if (clumps.size() > 2)
+    {
+      (this->*mend)(vertex, clumps);
+    }
+  }
+}
+
+// Of the changes that leave fewer vertices to be mended around here, takes the one that leaves the
+// fewest, and of those the one of least volume.
+void SolidRepair::changeBest(std::int32_t vertex, const std::vector<Clump>& clumps)
+{
+  std::vector<Clump> choices;
+  Clump filled;
+  Clump emptied;
+  for (const Clump& clump : clumps)
+  {
+    Clump& whole = clump.inside ? emptied : filled;
+    whole.inside = clump.inside;
+    for (const std::int32_t cell : clump.cells)
+    {
+      if (tetrahedra_.finite(cell))
+      {
+        whole.cells.push_back(cell);
+        whole.volume += this->volume(cell);
+        choices.push_back({ { cell }, this->volume(cell), clump.inside });
+      }
+    }
+    if (std::isfinite(clump.volume))
+    {
+      choices.push_back(clump);
+    }
+  }
+  choices.push_back(filled);
+  choices.push_back(emptied);
+  const Clump* best = nullptr;
+  long bestGain = leastGain_ - 1;
+  for (const Clump& choice : choices)
+  {
+    if (!this->mayChange(choice))
+    {
+      continue;
+    }
+    const long gain = this->gain(choice);
+    if (gain > bestGain || (gain == bestGain && best && choice.volume < best->volume))
+    {
+      best = &choice;
+      bestGain = gain;
+    }
+  }
+  if (best)
+  {
+    this->change(*best);
+  }
+  static_cast<void>(vertex);
+}
+
+bool SolidRepair::mayChange(const Clump& clump) const
+{
+  constexpr std::uint8_t kMostFlips = 2;
+  return !clump.cells.empty() &&
+    (leastGain_ > 0 ||
+      std::all_of(clump.cells.begin(), clump.cells.end(),
+        [this](std::int32_t cell) { return flips_[cell] < kMostFlips; }));
+}
+
+long SolidRepair::gain(const Clump& clump)
+{
+  std::vector<std::int32_t> vertices;
+  for (const std::int32_t cell : clump.cells)
+  {
+    vertices.insert(vertices.end(), tetrahedra_.cell(cell).begin(), tetrahedra_.cell(cell).end());
+  }
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  const auto bad = [&]
+  {
+    long count = 0;
+    for (const std::int32_t vertex : vertices)
+    {
+      count += std::max<long>(0, static_cast<long>(this->clumpsAround(vertex).size()) - 2);
+    }
+    return count;
+  };
+  const auto flip = [&]
+  {
+    for (const std::int32_t cell : clump.cells)
+    {
+      inside_[cell] ^= 1;
+    }
+  };
+  const long before = bad();
+  flip();
+  const long after = bad();
+  flip();
+  return before - after;
+}
+
+void SolidRepair::change(const Clump& clump)
+{
+  for (const std::int32_t cell : clump.cells)
+  {
+    this->setSide(cell, !clump.inside);
+  }
+}
+
+void SolidRepair::fillStar(std::int32_t vertex, const std::vector<Clump>&)
+{
+  for (const std::int32_t cell : tetrahedra_.star(vertex))
+  {
+    if (tetrahedra_.finite(cell) && !inside_[cell])
+    {
+      this->setSide(cell, true);
+    }
+  }
+}
+
+void SolidRepair::removeCrumbsAndVoids()
+{
+  constexpr std::size_t kCrumb = 100;
+  std::vector<std::uint8_t> seen(inside_.size(), 0);
+  std::vector<std::vector<std::int32_t>> solids;
+  for (std::int32_t seed = tetrahedra_.cellCount() - 1; seed >= 0; --seed)
+  {
+    if (seen[seed])
+    {
+      continue;
+    }
+    // Infinite cells come first, so the first outer component is the true outside.
+    const bool side = inside_[seed] != 0;
+    const bool isVoid = !side && tetrahedra_.finite(seed);
+    std::vector<std::int32_t> cells{ seed };
+    seen[seed] = 1;
+    for (std::size_t k = 0; k < cells.size(); ++k)
+    {
+      for (int facet = 0; facet < 4; ++facet)
+      {
+        const std::int32_t beyond = tetrahedra_.neighbor(cells[k], facet);
+        if (!seen[beyond] && (inside_[beyond] != 0) == side)
+        {
+          seen[beyond] = 1;
+          cells.push_back(beyond);
+        }
+      }
+    }
+    if (isVoid)
+    {
+      std::for_each(
+        cells.begin(), cells.end(), [this](std::int32_t cell) { this->setSide(cell, true); });
+    }
+    else if (side)
+    {
+      solids.push_back(std::move(cells));
+    }
+  }
+  std::size_t largest = 0;
+  for (const auto& cells : solids)
+  {
+    largest = std::max(largest, cells.size());
+  }
+  for (const auto& cells : solids)
+  {
+    if (cells.size() * kCrumb < largest)
+    {
+      std::for_each(
+        cells.begin(), cells.end(), [this](std::int32_t cell) { this->setSide(cell, false); });
+    }
+  }
+}
+
+} // namespace
+
+std::size_t repairSolid(const Tetrahedralization& tetrahedra, std::vector<std::uint8_t>& inside)
+{
+  return SolidRepair(tetrahedra, inside).run();
+}
+
+} // namespace hybridtree

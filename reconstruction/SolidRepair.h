@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "reconstruction/Tetrahedralization.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace hybridtree
+{
+
+/// Changes a set of finite cells, as little as it finds necessary, until its boundary is a closed
+/// 2-manifold that encloses no void, and crumbs are gone: components with fewer than a hundredth
+/// of the cells of the largest.
+///
+/// A boundary vertex is manifold when the cells of the set around it hang together by facets, and
+/// so do those not of the set. Where it is not, the smallest such clump around it (by volume) is
+/// removed or filled; a cell changes sides once at most, so this ends. Vertices that are left have
+/// their whole star filled, which only grows the set, so this ends too (at worst with the convex
+/// hull).
+/// \param inside per cell: 1 in the set, 0 not; infinite cells 0.
+/// \returns how many cells changed sides.
+std::size_t repairSolid(const Tetrahedralization& tetrahedra, std::vector<std::uint8_t>& inside);
+
+} // namespace hybridtree

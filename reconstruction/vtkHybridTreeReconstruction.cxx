@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkHybridTreeReconstruction.h"
+
+#include "core/base/Error.h"
+#include "core/base/Progress.h"
+#include "core/nodes/MeshNode.h"
+#include "reconstruction/Convection.h"
+#include "reconstruction/PointCloud.h"
+#include "vtkCellArray.h"
+#include "vtkDataSet.h"
+#include "vtkDoubleArray.h"
+#include "vtkHybridTreeArray.h"
+#include "vtkIdTypeArray.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+
+#include <limits>
+
+namespace
+{
+
+constexpr const char* kNormals = "Normals";
+constexpr const char* kPointIds = "PointIds";
+
+// All work runs on the filter's own thread, so it may talk to the filter at any time.
+class FilterProgress final : public hybridtree::Progress
+{
+public:
+  explicit FilterProgress(vtkAlgorithm* algorithm) : Algorithm(algorithm) {}
+  void report(double fraction) const override
+  {
+    if (fraction >= this->Reported + 0.01)
+    {
+      this->Reported = fraction;
+      this->Algorithm->UpdateProgress(fraction);
+    }
+  }
+  bool cancelled() const override { return this->Algorithm->GetAbortExecute() != 0; }
+
+private:
+  vtkAlgorithm* Algorithm;
+  mutable double Reported = 0.0;
+};
+
+std::vector<hybridtree::Vec3> readPoints(vtkDataSet* input)
+{
+  const vtkIdType count = input->GetNumberOfPoints();
+  if (count > std::numeric_limits<std::int32_t>::max())
+  {
+    throw hybridtree::TooLarge("The input has " + std::to_string(count) +
+      " points, more than the 2147483647 that can be counted: thin it first.");
+  }
+  std::vector<hybridtree::Vec3> points(static_cast<std::size_t>(count));
+  for (vtkIdType k = 0; k < count; ++k)
+  {
+    input->GetPoint(k, points[static_cast<std::size_t>(k)].data());
+  }
+  return points;
+}
+
+int pointType(vtkDataSet* input)
+{
+  vtkPointSet* set = vtkPointSet::SafeDownCast(input);
+  return set && set->GetPoints() && set->GetPoints()->GetDataType() == VTK_FLOAT ? VTK_FLOAT
+                                                                                 : VTK_DOUBLE;
+}
+
+void writeGeometry(const hybridtree::TriangleMesh& mesh, int type, vtkPolyData* output)
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataType(type);
+  points->SetNumberOfPoints(static_cast<vtkIdType>(mesh.points.size()));
+  for (std::size_t k = 0; k < mesh.points.size(); ++k)
+  {
+    points->SetPoint(static_cast<vtkIdType>(k), mesh.points[k].data());
+  }
+  vtkNew<vtkCellArray> polygons;
+  polygons->AllocateExact(static_cast<vtkIdType>(mesh.triangles.size()),
+    static_cast<vtkIdType>(3 * mesh.triangles.size()));
+  for (const hybridtree::Triangle& triangle : mesh.triangles)
+  {
+    polygons->InsertNextCell({ triangle[0], triangle[1], triangle[2] });
+  }
+  output->SetPoints(points);
+  output->SetPolys(polygons);
+}
+
+void writeArrays(const hybridtree::TriangleMesh& mesh, const std::vector<std::int32_t>& ids,
+  vtkPointData* input, vtkPointData* output)
+{
+  const auto count = static_cast<vtkIdType>(ids.size());
+  output->CopyFieldOff(kNormals);
+  output->CopyFieldOff(kPointIds);
+  output->CopyAllocate(input, count);
+  vtkNew<vtkDoubleArray> normals;
+  normals->SetName(kNormals);
+  normals->SetNumberOfComponents(3);
+  normals->SetNumberOfTuples(count);
+  vtkNew<vtkIdTypeArray> pointIds;
+  pointIds->SetName(kPointIds);
+  pointIds->SetNumberOfTuples(count);
+  for (vtkIdType k = 0; k < count; ++k)
+  {
+    const auto index = static_cast<std::size_t>(k);
+    output->CopyData(input, ids[index], k);
+    normals->SetTuple(k, mesh.normals[index].data());
+    pointIds->SetValue(k, ids[index]);
+  }
+  output->SetNormals(normals);
+  output->AddArray(pointIds);
+}
+
+} // namespace
+
+vtkStandardNewMacro(vtkHybridTreeReconstruction);
+
+//------------------------------------------------------------------------------
+vtkHybridTreeReconstruction::vtkHybridTreeReconstruction() = default;
+
+vtkHybridTreeReconstruction::~vtkHybridTreeReconstruction() = default;
+
+//------------------------------------------------------------------------------
+int vtkHybridTreeReconstruction::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataSet");
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkHybridTreeReconstruction::RequestInformation(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
+{
+  outputs->GetInformationObject(0)->Set(vtkAlgorithm::CAN_HANDLE_PIECE_REQUEST(), 1);
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkHybridTreeReconstruction::RequestUpdateExtent(
+  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector*)
+{
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  vtkInformation* info = inputs[0]->GetInformationObject(0);
+  info->Set(Pipeline::UPDATE_PIECE_NUMBER(), 0);
+  info->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), 1);
+  info->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+  if (info->Has(Pipeline::WHOLE_EXTENT()))
+  {
+    int extent[6];
+    info->Get(Pipeline::WHOLE_EXTENT(), extent);
+    info->Set(Pipeline::UPDATE_EXTENT(), extent, 6);
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkHybridTreeReconstruction::RequestData(
+  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  vtkInformation* info = outputs->GetInformationObject(0);
+  vtkPolyData* output = vtkPolyData::GetData(info);
+  if (info->Get(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER()) > 0)
+  {
+    output->Initialize();
+    return 1;
+  }
+  try
+  {
+    this->Reconstruct(vtkDataSet::GetData(inputs[0]), output);
+    return 1;
+  }
+  catch (const hybridtree::Cancelled&) // the user's wish, not an error
+  {
+    output->Initialize();
+    return 1;
+  }
+  catch (const std::exception& error)
+  {
+    output->Initialize();
+    vtkErrorMacro(<< error.what());
+    return 0;
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkHybridTreeReconstruction::Reconstruct(vtkDataSet* input, vtkPolyData* output)
+{
+  using namespace hybridtree;
+  const FilterProgress progress(this);
+  const std::vector<Vec3> all = readPoints(input);
+  std::vector<std::int32_t> chosen = withoutDuplicates(all, allPoints(all));
+  if (this->RemoveOutliers)
+  {
+    chosen = withoutOutliers(all, chosen, this->OutlierNeighbors, this->OutlierDeviation,
+      ProgressPart(progress, 0.0, 0.1));
+  }
+  chosen = thinned(all, chosen, this->Spacing, ProgressPart(progress, 0.1, 0.2));
+
+  std::vector<Vec3> points(chosen.size());
+  for (std::size_t k = 0; k < chosen.size(); ++k)
+  {
+    points[k] = all[chosen[k]];
+  }
+  ConvectionOptions options;
+  options.openPockets = this->OpenPockets;
+  options.pocketFactor = this->PocketFactor;
+  ReconstructedSurface surface = reconstruct(points, options, ProgressPart(progress, 0.2, 1.0));
+  for (std::int32_t& id : surface.pointIds)
+  {
+    id = chosen[id];
+  }
+  for (const std::string& warning : surface.warnings)
+  {
+    vtkWarningMacro(<< warning);
+  }
+
+  writeGeometry(surface.mesh, pointType(input), output);
+  writeArrays(surface.mesh, surface.pointIds, input->GetPointData(), output->GetPointData());
+  const auto mesh = std::make_shared<const TriangleMesh>(std::move(surface.mesh));
+  vtkHybridTreeArray::PutTree(
+    makeMeshNode(mesh, 2.0 * kThreshold, defaultInfluenceRadius(*mesh), 2), output);
+}
+
+//------------------------------------------------------------------------------
+void vtkHybridTreeReconstruction::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Spacing: " << this->Spacing << "\n";
+  os << indent << "RemoveOutliers: " << this->RemoveOutliers << "\n";
+  os << indent << "OutlierNeighbors: " << this->OutlierNeighbors << "\n";
+  os << indent << "OutlierDeviation: " << this->OutlierDeviation << "\n";
+  os << indent << "OpenPockets: " << this->OpenPockets << "\n";
+  os << indent << "PocketFactor: " << this->PocketFactor << "\n";
+}

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkHybridTreeReconstruction
+ * @brief   closed triangle mesh through the points of a data set
+ *
+ * The input is anything with points; its cells are ignored. Points that coincide count once,
+ * outliers are removed and the rest is thinned if asked for; geometric convection over their
+ * Delaunay tetrahedralization then gives the surface of a solid ([HT] 3; Chaine 2003): closed,
+ * 2-manifold, oriented outward, its vertices a subset of the input's points, bit for bit.
+ *
+ * Output point data: Normals (unit, outward, area weighted), PointIds (index of the input point)
+ * and the input's point arrays but for one called Normals. The output is a node of the HybridTree,
+ * a mesh leaf with a tenth of its diagonal as radius of influence.
+ *
+ * Pieces: the first piece is everything, all other pieces are empty; the input is asked for as one
+ * piece.
+ */
+
+#ifndef vtkHybridTreeReconstruction_h
+#define vtkHybridTreeReconstruction_h
+
+#include "HybridTreeReconstructionModule.h" // for export macro
+#include "vtkPolyDataAlgorithm.h"
+
+class vtkDataSet;
+
+class HYBRIDTREERECONSTRUCTION_EXPORT vtkHybridTreeReconstruction : public vtkPolyDataAlgorithm
+{
+public:
+  static vtkHybridTreeReconstruction* New();
+  vtkTypeMacro(vtkHybridTreeReconstruction, vtkPolyDataAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * Least distance between the points that are used, world units, >= 0; 0 (default) keeps all.
+   * Every point left out is within this distance of one that is used.
+   */
+  vtkSetMacro(Spacing, double);
+  vtkGetMacro(Spacing, double);
+  ///@}
+
+  ///@{
+  /**
+   * Drop points whose mean distance to their OutlierNeighbors nearest neighbours is more than
+   * OutlierDeviation standard deviations above the average. Default off.
+   */
+  vtkSetMacro(RemoveOutliers, bool);
+  vtkGetMacro(RemoveOutliers, bool);
+  vtkBooleanMacro(RemoveOutliers, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Number of neighbours that decide on an outlier, 1 to 1000, default 16.
+   */
+  vtkSetClampMacro(OutlierNeighbors, int, 1, 1000);
+  vtkGetMacro(OutlierNeighbors, int);
+  ///@}
+
+  ///@{
+  /**
+   * Standard deviations above the average from which a point is an outlier, >= 0, default 2.
+   */
+  vtkSetMacro(OutlierDeviation, double);
+  vtkGetMacro(OutlierDeviation, double);
+  ///@}
+
+  ///@{
+  /**
+   * Let the surface enter hollows and holes whose mouth no point lies right behind. Default on.
+   */
+  vtkSetMacro(OpenPockets, bool);
+  vtkGetMacro(OpenPockets, bool);
+  vtkBooleanMacro(OpenPockets, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Width of a mouth, in local distances between points, from which it leads into a pocket
+   * whatever lies behind; a narrower one does only where what lies behind is not much wider.
+   * No unit, above 1, default 6. Raise it where the surface breaks in through a gap of the
+   * sampling.
+   */
+  vtkSetMacro(PocketFactor, double);
+  vtkGetMacro(PocketFactor, double);
+  ///@}
+
+protected:
+  vtkHybridTreeReconstruction();
+  ~vtkHybridTreeReconstruction() override;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestInformation(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  int RequestUpdateExtent(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  int RequestData(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+
+  double Spacing = 0.0;
+  bool RemoveOutliers = false;
+  int OutlierNeighbors = 16;
+  double OutlierDeviation = 2.0;
+  bool OpenPockets = true;
+  double PocketFactor = 6.0;
+
+private:
+  vtkHybridTreeReconstruction(const vtkHybridTreeReconstruction&) = delete;
+  void operator=(const vtkHybridTreeReconstruction&) = delete;
+
+  void Reconstruct(vtkDataSet* input, vtkPolyData* output);
+};
+
+#endif
