@@ -9,6 +9,7 @@
 
 #include "core/base/Error.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace hybridtree
@@ -16,7 +17,8 @@ namespace hybridtree
 namespace
 {
 
-// Facets of less than this size may be part of the surface.
+// Tetrahedra of at least this size are told apart by the watershed; smaller ones are left to the
+// flow. Low, since the watershed weighs both sides and the flow only knows one.
 constexpr double kWide = 1.0;
 
 void appendBoundary(const Tetrahedralization& tetrahedra, const std::vector<std::uint8_t>& inside,
@@ -66,6 +68,37 @@ void computeNormals(TriangleMesh& mesh)
   }
 }
 
+bool surfaceIsMissing(const std::vector<std::uint8_t>& inside)
+{
+  return std::find(inside.begin(), inside.end(), std::uint8_t(1)) == inside.end();
+}
+
+std::vector<std::uint8_t> solid(
+  const Tetrahedralization& tetrahedra, const ConvectionOptions& options, const Progress& progress)
+{
+  const FacetSize sizes(tetrahedra);
+  const std::vector<Region> regions = findRegions(tetrahedra, sizes, kWide, options.pocketFactor);
+  progress.check();
+  Front front(tetrahedra, sizes, regions);
+  front.run(options.openPockets, progress);
+  std::vector<std::uint8_t> inside = front.inside();
+  repairSolid(tetrahedra, inside, progress);
+  return inside;
+}
+
+// What convection finds when it may nowhere change the topology: never nothing.
+std::vector<std::uint8_t> solidFromHull(
+  const Tetrahedralization& tetrahedra, const Progress& progress)
+{
+  const FacetSize sizes(tetrahedra);
+  std::vector<Region> regions(tetrahedra.cellCount(), Region::Surface);
+  Front front(tetrahedra, sizes, regions);
+  front.run(false, progress);
+  std::vector<std::uint8_t> inside = front.inside();
+  repairSolid(tetrahedra, inside, progress);
+  return inside;
+}
+
 } // namespace
 
 ReconstructedSurface reconstruct(
@@ -76,16 +109,16 @@ ReconstructedSurface reconstruct(
     throw InvalidParameter("pocketFactor", options.pocketFactor, "a finite number above 1");
   }
   const Tetrahedralization tetrahedra(points, ProgressPart(progress, 0.0, 0.6));
-  const FacetSize sizes(tetrahedra);
-  const std::vector<Region> regions = findRegions(tetrahedra, sizes, kWide, options.pocketFactor);
-  Front front(tetrahedra, sizes, regions);
-  front.run(options.openPockets, ProgressPart(progress, 0.6, 0.9));
-  std::vector<std::uint8_t> inside = front.inside();
-  repairSolid(tetrahedra, inside);
+  ReconstructedSurface surface;
+  std::vector<std::uint8_t> inside = solid(tetrahedra, options, ProgressPart(progress, 0.6, 0.95));
   progress.check();
   progress.report(0.95);
-
-  ReconstructedSurface surface;
+  if (surfaceIsMissing(inside))
+  {
+    surface.warnings.push_back("The points are too few, too scattered or on too open a surface to "
+                               "tell inside from outside: only dents were followed.");
+    inside = solidFromHull(tetrahedra, ProgressPart(progress, 0.95, 1.0));
+  }
   appendBoundary(tetrahedra, inside, surface);
   computeNormals(surface.mesh);
   return surface;

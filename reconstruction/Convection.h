@@ -13,12 +13,12 @@ namespace hybridtree
 
 struct ConvectionOptions
 {
-  /// Lets the surface pass through facets that are large against the local sampling though no point
-  /// lies right behind them: mouths of hollows, holes of handles.
+  /// Lets the surface pass through facets too large for the local sampling though no point lies
+  /// right behind them: mouths of hollows, holes of handles.
   bool openPockets = true;
-  /// A facet is large when its longest edge exceeds this many times the local spacing, which is
-  /// the distance of a point to its sixth neighbour or so. No unit, > 1. Smaller values open
-  /// narrower hollows and bear less uneven sampling.
+  /// A facet whose longest edge exceeds this many times the local spacing (FacetSize.h) is the
+  /// mouth of a pocket whatever lies behind it; a smaller one only where what lies behind is not
+  /// much wider. No unit, > 1, default 6. Raise it where the surface breaks in through a gap.
   double pocketFactor = 6.0;
 };
 
@@ -42,11 +42,15 @@ struct ReconstructedSurface
 /// it, and half-facets that meet back to back cancel. It bounds at any time the tetrahedra not yet
 /// passed, so it is closed and oriented.
 ///
-/// Departs from the paper where sampling is too coarse for a sheet or limb. Largest facets move
-/// first; a facet that is not large against the local spacing never changes the topology, so thin
-/// walls are not torn; a pocket is opened on trial, and closed again where the flow tears off more
-/// surface than it finds (an undersampled place of the object, not a pocket). The solid is mended
-/// to a manifold at the end by passing or taking back single tetrahedra.
+/// Departs from the paper where sampling is uneven, as when points are drawn at random:
+/// - which tetrahedra are empty space around the object and which are inside it is decided first,
+/// by
+///   a watershed over all facets (Regions.h), so that the flow never leaks through places of thin
+///   sampling; this also finds the pockets to be opened;
+/// - along the surface the flow never changes the topology, so thin walls are not torn;
+/// - the solid is mended to a manifold at the end by passing or taking back single tetrahedra.
+/// A cavity that is closed off all around, and a hole or wall about as thin as the points are far
+/// apart, may be lost.
 ///
 /// \param points in any order; coincident points count once. Cost O(n log n) for points on a
 /// surface, about 1 KB of memory a point.

@@ -115,4 +115,22 @@ double FacetSize::ofCell(std::int32_t cell) const
     this->ofEdge(v[2], v[3]) });
 }
 
+double FacetSize::lengthOfFacet(std::int32_t cell, int facet) const
+{
+  const auto& p = tetrahedra_.points();
+  const auto v = tetrahedra_.facet(cell, facet);
+  return std::max(
+    { (p[v[0]] - p[v[1]]).norm(), (p[v[1]] - p[v[2]]).norm(), (p[v[2]] - p[v[0]]).norm() });
+}
+
+double FacetSize::lengthOfCell(std::int32_t cell) const
+{
+  double length = 0.0;
+  for (int facet = 0; facet < 3; ++facet) // three facets have all six edges
+  {
+    length = std::max(length, this->lengthOfFacet(cell, facet));
+  }
+  return length;
+}
+
 } // namespace hybridtree

@@ -26,6 +26,10 @@ public:
   /// \pre the cell is finite.
   double ofCell(std::int32_t cell) const;
 
+  /// The same without regard to the spacing: the longest edge, in world units.
+  double lengthOfFacet(std::int32_t cell, int facet) const;
+  double lengthOfCell(std::int32_t cell) const;
+
 private:
   const Tetrahedralization& tetrahedra_;
   std::vector<double> spacing_; // per point; infinite at duplicates

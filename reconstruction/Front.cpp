@@ -116,7 +116,7 @@ void Front::cancel(std::int32_t cell, int facet)
 
 // Sculpting moves that leave the surface a manifold of the same genus: one facet in, onto a vertex
 // that is not on the surface; two facets flipped over an edge that is not on it; a spike of three
-// facets, or a whole tetrahedron, removed.
+// facets removed.
 bool Front::keepsTopology(std::int32_t cell, std::int32_t& blocker) const
 {
   int open[4] = { 0, 0, 0, 0 };
@@ -133,7 +133,7 @@ bool Front::keepsTopology(std::int32_t cell, std::int32_t& blocker) const
   {
     return surfaceFacets_[blocker] == 0;
   }
-  return openCount > 2 || this->edgeIsBuried(cell, open[0], open[1]);
+  return openCount == 3 || (openCount == 2 && this->edgeIsBuried(cell, open[0], open[1]));
 }
 
 bool Front::edgeIsBuried(std::int32_t cell, int i, int j) const

@@ -11,9 +11,9 @@ namespace hybridtree
 namespace
 {
 
-// A region whose widest tetrahedron is less than this many times as wide as the way into it is no
-// region of its own.
-constexpr double kDepth = 1.5;
+// A region whose longest edge is less than this many times as long as that of the way into it is no
+// region of its own. Plain lengths: sizes relative to the sampling jump from point to point.
+constexpr double kDepth = 1.25;
 
 struct Passage
 {
@@ -48,7 +48,7 @@ std::vector<Passage> widePassages(
   return passages;
 }
 
-// Disjoint sets of cells that know the size of their widest.
+// Disjoint sets of cells that know the longest edge of theirs.
 class Basins
 {
 public:
@@ -59,7 +59,7 @@ public:
     std::iota(parent_.begin(), parent_.end(), 0);
     for (std::int32_t cell = 0; cell < tetrahedra.finiteCellCount(); ++cell)
     {
-      depth_[cell] = sizes.ofCell(cell);
+      depth_[cell] = sizes.lengthOfCell(cell);
     }
     // The outside is one.
     for (std::int32_t cell = tetrahedra.finiteCellCount(); cell < tetrahedra.cellCount(); ++cell)
@@ -102,7 +102,8 @@ std::vector<Region> findRegions(
     const std::int32_t here = basins.find(passage.cell);
     const std::int32_t there = basins.find(tetrahedra.neighbor(passage.cell, passage.facet));
     const double shallow = std::min(basins.depth(here), basins.depth(there));
-    if (here != there && (passage.size > mouth || shallow < kDepth * passage.size))
+    if (here != there &&
+      (passage.size > mouth || shallow < kDepth * sizes.lengthOfFacet(passage.cell, passage.facet)))
     {
       basins.join(here, there);
     }

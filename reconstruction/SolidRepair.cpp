@@ -11,20 +11,25 @@ namespace hybridtree
 namespace
 {
 
+constexpr int kMostFlips = 6;
+
 // Cells around one vertex in clumps: those on the same side that hang together by facets.
 struct Clump
 {
   std::vector<std::int32_t> cells;
-  double volume = 0.0;
+  double reach = 0.0; // cubes of the longest edges: long slivers make bridges, so volume misleads
   bool inside = false;
 };
 
 class SolidRepair
 {
 public:
-  SolidRepair(const Tetrahedralization& tetrahedra, std::vector<std::uint8_t>& inside)
+  SolidRepair(const Tetrahedralization& tetrahedra, std::vector<std::uint8_t>& inside,
+    const Progress& progress)
     : tetrahedra_(tetrahedra)
     , inside_(inside)
+    , progress_(progress)
+    , unseen_(inside.size(), 0)
     , flips_(inside.size(), 0)
     , waiting_(tetrahedra.points().size(), 0)
   {
@@ -33,12 +38,18 @@ public:
   std::size_t run()
   {
     this->removeCrumbsAndVoids();
-    for (leastGain_ = 1; leastGain_ >= -3; --leastGain_)
+    bool left = true;
+    for (mostFlips_ = 1; left && mostFlips_ <= kMostFlips; ++mostFlips_)
     {
-      this->mendVertices(&SolidRepair::changeBest);
+      for (leastGain_ = 1; left && leastGain_ >= -3; --leastGain_)
+      {
+        left = this->mendVertices(&SolidRepair::changeBest);
+      }
     }
-
-    this->mendVertices(&SolidRepair::fillStar);
+    if (left)
+    {
+      this->mendVertices(&SolidRepair::fillStar);
+    }
 
     this->removeCrumbsAndVoids();
     return changes_;
@@ -47,68 +58,88 @@ public:
 private:
   using Mend = void (SolidRepair::*)(std::int32_t, const std::vector<Clump>&);
 
-  void mendVertices(Mend mend);
+  bool mendVertices(Mend mend);
   void changeBest(std::int32_t vertex, const std::vector<Clump>& clumps);
   bool mayChange(const Clump& clump) const;
   long gain(const Clump& clump);
   void change(const Clump& clump);
   void fillStar(std::int32_t vertex, const std::vector<Clump>& clumps);
-  std::vector<Clump> clumpsAround(std::int32_t vertex) const;
-  double volume(std::int32_t cell) const;
+  std::vector<Clump> clumpsAround(std::int32_t vertex);
+  bool onSurface(std::int32_t vertex) const;
+  double reach(std::int32_t cell) const;
   void setSide(std::int32_t cell, bool inside);
   void await(std::int32_t vertex);
   void removeCrumbsAndVoids();
 
   const Tetrahedralization& tetrahedra_;
   std::vector<std::uint8_t>& inside_;
+  const Progress& progress_;
+  std::vector<std::uint8_t> unseen_; // all 0 between uses
   std::vector<std::uint8_t> flips_;
   std::vector<std::uint8_t> waiting_;
   std::vector<std::int32_t> vertices_;
   std::size_t changes_ = 0;
-  long leastGain_ = 1;
+  long leastGain_ = 1; // of a change, in clumps too many
+  int mostFlips_ = 1;  // of a cell, for changes that gain nothing
 };
 
-double SolidRepair::volume(std::int32_t cell) const
+double SolidRepair::reach(std::int32_t cell) const
 {
   if (!tetrahedra_.finite(cell))
   {
     return std::numeric_limits<double>::infinity();
   }
-  const auto& v = tetrahedra_.cell(cell);
-  const auto& p = tetrahedra_.points();
-  return std::abs((p[v[1]] - p[v[0]]).cross(p[v[2]] - p[v[0]]).dot(p[v[3]] - p[v[0]])) / 6.0;
+  double longest = 0.0;
+  for (int i = 0; i < 4; ++i)
+  {
+    for (int j = 0; j < i; ++j)
+    {
+      const auto& v = tetrahedra_.cell(cell);
+      const Vec3 edge = tetrahedra_.points()[v[i]] - tetrahedra_.points()[v[j]];
+      longest = std::max(longest, edge.norm());
+    }
+  }
+  return longest * longest * longest;
 }
 
-std::vector<Clump> SolidRepair::clumpsAround(std::int32_t vertex) const
+std::vector<Clump> SolidRepair::clumpsAround(std::int32_t vertex)
 {
   const auto star = tetrahedra_.star(vertex);
-  std::vector<std::int32_t> rest(star.begin(), star.end());
   std::vector<Clump> clumps;
-  while (!rest.empty())
+  std::for_each(star.begin(), star.end(), [this](std::int32_t cell) { unseen_[cell] = 1; });
+  for (const std::int32_t seed : star)
   {
+    if (!unseen_[seed])
+    {
+      continue;
+    }
     Clump clump;
-    clump.cells.push_back(rest.back());
-    rest.pop_back();
-    clump.inside = inside_[clump.cells.front()] != 0;
+    clump.inside = inside_[seed] != 0;
+    clump.cells.push_back(seed);
+    unseen_[seed] = 0;
     for (std::size_t k = 0; k < clump.cells.size(); ++k)
     {
-      const std::int32_t cell = clump.cells[k];
-      clump.volume += this->volume(cell);
+      clump.reach += this->reach(clump.cells[k]);
       for (int facet = 0; facet < 4; ++facet)
       {
-        const std::int32_t beyond = tetrahedra_.neighbor(cell, facet);
-        const auto place = std::find(rest.begin(), rest.end(), beyond);
-        if (place != rest.end() && (inside_[beyond] != 0) == clump.inside)
+        const std::int32_t beyond = tetrahedra_.neighbor(clump.cells[k], facet);
+        if (unseen_[beyond] && (inside_[beyond] != 0) == clump.inside)
         {
+          unseen_[beyond] = 0;
           clump.cells.push_back(beyond);
-          *place = rest.back();
-          rest.pop_back();
         }
       }
     }
     clumps.push_back(std::move(clump));
   }
   return clumps;
+}
+
+bool SolidRepair::onSurface(std::int32_t vertex) const
+{
+  const auto star = tetrahedra_.star(vertex);
+  return std::any_of(star.begin(), star.end(),
+    [&](std::int32_t cell) { return inside_[cell] != inside_[*star.begin()]; });
 }
 
 void SolidRepair::await(std::int32_t vertex)
@@ -131,29 +162,46 @@ void SolidRepair::setSide(std::int32_t cell, bool inside)
   }
 }
 
-void SolidRepair::mendVertices(Mend mend)
+// Whether vertices are left that no change was found for.
+bool SolidRepair::mendVertices(Mend mend)
 {
+  bool left = false;
   for (std::size_t v = tetrahedra_.points().size(); v > 0; --v)
   {
     this->await(static_cast<std::int32_t>(v - 1));
   }
+  std::size_t step = 0;
   while (!vertices_.empty())
   {
     const std::int32_t vertex = vertices_.back();
     vertices_.pop_back();
     waiting_[vertex] = 0;
+    if (++step % 1024 == 0)
+    {
+      progress_.check();
+    }
+    if (!this->onSurface(vertex))
+    {
+      continue;
+    }
     const std::vector<Clump> clumps = this->clumpsAround(vertex);
     if (clumps.size() > 2)
     {
+      const std::size_t before = changes_;
       (this->*mend)(vertex, clumps);
+      left = left || changes_ == before;
     }
   }
+  return left;
 }
 
 // Of the changes that leave fewer vertices to be mended around here, takes the one that leaves the
-// fewest, and of those the one of least volume.
+// fewest, and of those the one of least reach.
 void SolidRepair::changeBest(std::int32_t vertex, const std::vector<Clump>& clumps)
 {
+  // Trying each cell of a huge star would be quadratic.
+  constexpr std::size_t kManyCells = 200;
+  const bool single = tetrahedra_.star(vertex).size() <= kManyCells;
   std::vector<Clump> choices;
   Clump filled;
   Clump emptied;
@@ -166,11 +214,14 @@ void SolidRepair::changeBest(std::int32_t vertex, const std::vector<Clump>& clum
       if (tetrahedra_.finite(cell))
       {
         whole.cells.push_back(cell);
-        whole.volume += this->volume(cell);
-        choices.push_back({ { cell }, this->volume(cell), clump.inside });
+        whole.reach += this->reach(cell);
+        if (single)
+        {
+          choices.push_back({ { cell }, this->reach(cell), clump.inside });
+        }
       }
     }
-    if (std::isfinite(clump.volume))
+    if (std::isfinite(clump.reach))
     {
       choices.push_back(clump);
     }
@@ -186,7 +237,7 @@ void SolidRepair::changeBest(std::int32_t vertex, const std::vector<Clump>& clum
       continue;
     }
     const long gain = this->gain(choice);
-    if (gain > bestGain || (gain == bestGain && best && choice.volume < best->volume))
+    if (gain > bestGain || (gain == bestGain && best && choice.reach < best->reach))
     {
       best = &choice;
       bestGain = gain;
@@ -196,16 +247,14 @@ void SolidRepair::changeBest(std::int32_t vertex, const std::vector<Clump>& clum
   {
     this->change(*best);
   }
-  static_cast<void>(vertex);
 }
 
 bool SolidRepair::mayChange(const Clump& clump) const
 {
-  constexpr std::uint8_t kMostFlips = 2;
   return !clump.cells.empty() &&
     (leastGain_ > 0 ||
       std::all_of(clump.cells.begin(), clump.cells.end(),
-        [this](std::int32_t cell) { return flips_[cell] < kMostFlips; }));
+        [this](std::int32_t cell) { return flips_[cell] < mostFlips_; }));
 }
 
 long SolidRepair::gain(const Clump& clump)
@@ -314,9 +363,10 @@ void SolidRepair::removeCrumbsAndVoids()
 
 } // namespace
 
-std::size_t repairSolid(const Tetrahedralization& tetrahedra, std::vector<std::uint8_t>& inside)
+std::size_t repairSolid(
+  const Tetrahedralization& tetrahedra, std::vector<std::uint8_t>& inside, const Progress& progress)
 {
-  return SolidRepair(tetrahedra, inside).run();
+  return SolidRepair(tetrahedra, inside, progress).run();
 }
 
 } // namespace hybridtree

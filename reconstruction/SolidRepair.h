@@ -3,6 +3,8 @@
 
 #include "reconstruction/Tetrahedralization.h"
 
+#include "core/base/Progress.h"
+
 #include <cstdint>
 #include <vector>
 
@@ -14,12 +16,15 @@ namespace hybridtree
 /// of the cells of the largest.
 ///
 /// A boundary vertex is manifold when the cells of the set around it hang together by facets, and
-/// so do those not of the set. Where it is not, the smallest such clump around it (by volume) is
-/// removed or filled; a cell changes sides once at most, so this ends. Vertices that are left have
-/// their whole star filled, which only grows the set, so this ends too (at worst with the convex
-/// hull).
+/// so do those not of the set. Where it is not, one cell, one such clump, or all around it change
+/// sides: what leaves fewest clumps too many, and among those what reaches least far. Changes that
+/// gain something always end; others are allowed a cell a few times only. Vertices that are left
+/// after that (none seen on samples of closed surfaces) have their whole star filled, which only
+/// grows the set, so this ends too, at worst with the convex hull.
 /// \param inside per cell: 1 in the set, 0 not; infinite cells 0.
+/// \throws Cancelled.
 /// \returns how many cells changed sides.
-std::size_t repairSolid(const Tetrahedralization& tetrahedra, std::vector<std::uint8_t>& inside);
+std::size_t repairSolid(const Tetrahedralization& tetrahedra, std::vector<std::uint8_t>& inside,
+  const Progress& progress = Progress::none());
 
 } // namespace hybridtree
