@@ -1,0 +1,111 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Every proxy: label, defaults, domains, documentation, and every property pushed to the VTK object."""
+import re
+
+import plugin
+from paraview import servermanager
+
+LABELS = {
+    "HybridTreeFreeFormDeformation": "HybridTree Free-Form Deformation",
+}
+COMMON = {"EdgeLength"}
+FIELD = COMMON | {"SurfaceRadius", "InfluenceRadius", "Exponent", "Negative", "FieldMode", "MaximumField"}
+BARR = COMMON | {"Input", "Origin", "Axis", "Normal", "Range"}
+BLEND = COMMON | {"Method", "OverlapThreshold"}
+# The names that scripts rely on; a proxy may have more.
+NAMES = {
+    "HybridTreePoint": FIELD | {"Center"},
+    "HybridTreeSegment": FIELD | {"Point1", "Point2"},
+    "HybridTreeCircle": FIELD | {"Center", "Normal", "Radius"},
+    "HybridTreeBox": FIELD | {"Center", "Lengths", "Rotation"},
+    "HybridTreeMeshField": (FIELD - {"SurfaceRadius"}) | {"Input"},
+    "HybridTreeBlend": BLEND | {"Input"},
+    "HybridTreeLocalBlend": BLEND | {"A", "B", "Region"},
+    "HybridTreeBoolean": COMMON | {"A", "B", "Operation", "Form"},
+    "HybridTreeTwist": BARR | {"Angle"},
+    "HybridTreeTaper": BARR | {"Factor"},
+    "HybridTreeBend": BARR | {"Angle"},
+    "HybridTreeAffineTransform": COMMON | {"Input", "Translate", "Rotate", "Scale", "Center"},
+    "HybridTreeFreeFormDeformation": COMMON
+    | {"Input", "LatticeDimensions", "LatticeOrigin", "LatticeAxes", "Displacements", "FieldFrom"},
+    "HybridTreeSurfaceReconstruction": {"Input", "Spacing", "RemoveOutliers", "OutlierNeighbors",
+        "OutlierDeviation", "OpenPockets"},
+    "HybridTreeProbe": {"Tree", "Points"},
+}
+
+
+def properties(proxy):
+    """name: property, of a server manager proxy, without those that only a widget needs."""
+    iterator = proxy.NewPropertyIterator()
+    iterator.Begin()
+    while not iterator.IsAtEnd():
+        if not iterator.GetProperty().GetIsInternal() and not iterator.GetProperty().GetInformationOnly():
+            yield iterator.GetKey(), iterator.GetProperty()
+        iterator.Next()
+
+
+def printed(proxy):
+    """What PrintSelf says of the VTK object: {name: text}."""
+    text = str(proxy.GetClientSideObject())
+    return dict(re.findall(r"^  ([A-Z]\w*): (.*)$", text, re.MULTILINE))
+
+
+def is_input(prop):
+    return prop.IsA("vtkSMInputProperty")
+
+
+def other_value(prop):
+    """A list of elements that differs from the present one and is in the domain."""
+    if prop.FindDomain("vtkSMBooleanDomain") or prop.FindDomain("vtkSMEnumerationDomain"):
+        return [1 - prop.GetElement(0)]
+    if prop.GetRepeatCommand():
+        return [0, 1, 1, 0.25, -0.5, 0.75]
+    step = 1 if prop.IsA("vtkSMIntVectorProperty") else 0.125
+    return [prop.GetElement(k) + step * (k + 1) for k in range(prop.GetNumberOfElements())]
+
+
+def check(name):
+    proxy = plugin.new_proxy(name)
+    assert proxy, f"{name} is missing"
+    words = LABELS.get(name, "HybridTree " + re.sub(r"(?<=[a-z])(?=[A-Z])", " ", name[len("HybridTree"):]))
+    assert proxy.GetXMLLabel() == words, proxy.GetXMLLabel()
+    assert proxy.GetDocumentation().GetDescription().strip(), f"{name} has no documentation"
+    category = proxy.GetHints().FindNestedElementByName("ShowInMenu").GetAttribute("category")
+    assert category == "HybridTree", f"{name} is in the menu {category}"
+
+    found = dict(properties(proxy))
+    assert NAMES[name] <= set(found), f"{name} has no {NAMES[name] - set(found)}"
+
+    # Defaults of the XML are those of the class: the first push changes nothing.
+    before = printed(proxy)
+    proxy.UpdateVTKObjects()
+    after = printed(proxy)
+    assert before == after, f"{name}: {set(before.items()) ^ set(after.items())}"
+
+    for key, prop in found.items():
+        documentation = prop.GetDocumentation()
+        assert documentation and documentation.GetDescription().strip(), f"{name}.{key}: no documentation"
+        if is_input(prop):
+            assert prop.FindDomain("vtkSMDataTypeDomain"), f"{name}.{key}: no data type"
+            continue
+        # Scripts know a property by its label: it must be the name with its words apart.
+        assert prop.GetXMLLabel().replace(" ", "") == key, f"{name}.{key}: label {prop.GetXMLLabel()}"
+        iterator = prop.NewDomainIterator()
+        iterator.Begin()
+        assert not iterator.IsAtEnd(), f"{name}.{key}: no domain"
+
+        value = other_value(prop)
+        if prop.GetRepeatCommand():
+            prop.SetNumberOfElements(len(value))
+        for index, element in enumerate(value):
+            prop.SetElement(index, element)
+        proxy.UpdateVTKObjects()
+        now = printed(proxy)
+        assert now.get(key) != after.get(key), f"{name}.{key} does not reach the VTK object: {now}"
+    return len(found)
+
+
+if __name__ == "__main__":
+    servermanager.ProxyManager()
+    total = sum(check(name) for name in plugin.PROXIES)
+    print(f"{len(plugin.PROXIES)} proxies, {total} properties")
