@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkHybridTreePipeline.h"
 
+#include "vtkAlgorithm.h"
 #include "vtkHybridTreeFormulation.h"
 #include "vtkObjectFactory.h"
 
@@ -9,7 +10,20 @@ vtkStandardNewMacro(vtkHybridTreePipeline);
 //------------------------------------------------------------------------------
 int vtkHybridTreePipeline::ForwardUpstream(vtkInformation* request)
 {
-  return this->Superclass::ForwardUpstream(request);
+  // The superclass asks all producers in one loop of its own, where nothing can be said to each.
+  if (this->SharedInputInformation)
+  {
+    return 1;
+  }
+  int result = 1;
+  for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
+  {
+    for (int k = 0; k < this->Algorithm->GetNumberOfInputConnections(port); ++k)
+    {
+      result &= this->ForwardUpstream(port, k, request) != 0;
+    }
+  }
+  return result;
 }
 
 //------------------------------------------------------------------------------

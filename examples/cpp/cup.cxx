@@ -50,7 +50,7 @@ int main(int argc, char** argv)
 
   // The inside: any triangle mesh will do; this one is VTK's cylinder, stood upright.
   vtkNew<vtkCylinderSource> cylinder;
-  cylinder->SetRadius(0.75);
+  cylinder->SetRadius(0.55);
   cylinder->SetHeight(2.4);
   cylinder->SetResolution(64);
   vtkNew<vtkHybridTreeAffineTransform> inside;
@@ -70,7 +70,7 @@ int main(int argc, char** argv)
   {
     cup->AddDisplacement(1, j, 3, -0.8, 0.0, 0.0);
   }
-  cup->SetEdgeLength(0.04);
+  cup->SetEdgeLength(0.03);
   cup->Update();
 
   vtkPolyData* mesh = cup->GetOutput();

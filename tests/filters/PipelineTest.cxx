@@ -121,6 +121,19 @@ TEST(Pipeline, WhatAForeignFilterSeesIsMeshed)
   EXPECT_GT(both->GetOutput()->GetNumberOfPoints(), one);
 }
 
+TEST(Pipeline, AForeignFilterElsewhereDoesNoHarm)
+{
+  const auto a = ball();
+  vtkNew<vtkElevationFilter> elsewhere; // as the views that ParaView keeps of hidden nodes
+  elsewhere->SetInputConnection(a->GetOutputPort());
+  vtkNew<vtkHybridTreeAffineTransform> move;
+  move->SetInputConnection(a->GetOutputPort());
+  move->Update();
+  EXPECT_EQ(a->GetNumberOfMeshings(), 0);
+  elsewhere->Update();
+  expectSolid(vtkPolyData::SafeDownCast(elsewhere->GetOutputDataObject(0)));
+}
+
 TEST(Pipeline, AForeignFilterBesideInEitherOrder)
 {
   for (const bool foreignFirst : { true, false })
