@@ -70,7 +70,7 @@ float roundedUp(double value)
 class MeshBvhBuilder
 {
 public:
-  MeshBvhBuilder(MeshBvh& bvh, const TriangleMesh& mesh) : bvh_(bvh)
+  MeshBvhBuilder(MeshBvh& bvh, const TriangleMesh& mesh) : bvh_(bvh), mesh_(mesh)
   {
     Box3 bounds;
     for (const Triangle& corner : mesh.triangles)
@@ -82,21 +82,21 @@ public:
     }
     bvh_.center_ = bounds.min() + 0.5 * bounds.sizes();
     bvh_.scale_ = 2.0 / std::max(bounds.sizes().maxCoeff(), std::numeric_limits<double>::min());
-    this->makeReferences(mesh);
+    this->makeReferences();
   }
 
   void build() { this->makeNode(this->whole()); }
 
 private:
-  void makeReferences(const TriangleMesh& mesh)
+  void makeReferences()
   {
-    references_.resize(mesh.triangles.size());
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    references_.resize(mesh_.triangles.size());
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
     {
       Box3 box;
-      for (const std::int32_t vertex : mesh.triangles[t])
+      for (const std::int32_t vertex : mesh_.triangles[t])
       {
-        box.extend(bvh_.toLocal(mesh.points[std::size_t(vertex)]));
+        box.extend(bvh_.toLocal(mesh_.points[std::size_t(vertex)]));
       }
       references_[t].triangle = std::int32_t(t);
       for (int axis = 0; axis < 3; ++axis)
@@ -171,8 +171,47 @@ private:
     {
       leaf.triangle[k] = references_[std::min(range.begin + k, range.end - 1)].triangle;
     }
+    for (std::size_t k = 0; k < MeshBvh::kWidth; ++k)
+    {
+      this->fillFrame(leaf, k);
+    }
     bvh_.leaves_.push_back(leaf);
     return MeshBvh::kLeafBit | std::uint32_t(bvh_.leaves_.size() - 1);
+  }
+
+  void fillFrame(MeshBvh::Leaf& leaf, std::size_t k) const
+  {
+    const Triangle& corner = mesh_.triangles[std::size_t(leaf.triangle[k])];
+    const Vec3 a = bvh_.toLocal(mesh_.points[std::size_t(corner[0])]);
+    const Vec3 ab =
+      (mesh_.points[std::size_t(corner[1])] - mesh_.points[std::size_t(corner[0])]) * bvh_.scale_;
+    const Vec3 ac =
+      (mesh_.points[std::size_t(corner[2])] - mesh_.points[std::size_t(corner[0])]) * bvh_.scale_;
+    const double length = ab.norm();
+    const Vec3 u = ab / length;
+    const Vec3 across = ac - ac.dot(u) * u;
+    // A sliver without a direction across gets any: its points are on the edge to rounding.
+    const Vec3 v = across.squaredNorm() > 0.0 ? across.normalized() : u.unitOrthogonal();
+    const Vec3 normal = u.cross(v);
+    const double x = ac.dot(u);
+    const double y = std::max(0.0, ac.dot(v));
+    const double last = std::hypot(x, y);
+    const double middle = std::hypot(x - length, y);
+    MeshBvh::Frame& frame = leaf.frame;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      frame.origin[axis][k] = float(a[axis]);
+      frame.u[axis][k] = float(u[axis]);
+      frame.v[axis][k] = float(v[axis]);
+      frame.normal[axis][k] = float(normal[axis]);
+    }
+    frame.length[0][k] = float(length);
+    frame.length[1][k] = float(middle);
+    frame.length[2][k] = float(last);
+    frame.direction[0][0][k] = float(middle > 0.0 ? (x - length) / middle : 0.0);
+    frame.direction[0][1][k] = float(middle > 0.0 ? y / middle : 0.0);
+    frame.direction[1][0][k] = float(last > 0.0 ? x / last : 0.0);
+    frame.direction[1][1][k] = float(last > 0.0 ? y / last : 0.0);
   }
 
   struct Cut
@@ -269,6 +308,7 @@ private:
   }
 
   MeshBvh& bvh_;
+  const TriangleMesh& mesh_;
   std::vector<Reference> references_;
 };
 

@@ -31,8 +31,22 @@ public:
     std::uint32_t child[kWidth];
   };
 
-  struct Leaf
+  /// A triangle in a frame of its own, in local space: the first corner at the origin, the second
+  /// on the u axis, the third on the side of positive v. Every direction is made in double and of
+  /// unit length, so that distances from it are good to float rounding for slivers too.
+  struct Frame
   {
+    float origin[3][kWidth];
+    float u[3][kWidth];
+    float v[3][kWidth];
+    float normal[3][kWidth];
+    float length[3][kWidth];       ///< of the edges 0-1, 1-2 and 0-2
+    float direction[2][2][kWidth]; ///< of the edges 1-2 and 0-2, in (u, v)
+  };
+
+  struct alignas(32) Leaf
+  {
+    Frame frame;
     std::array<std::int32_t, kWidth> triangle; ///< filled up with the last one
     std::uint32_t count;
   };

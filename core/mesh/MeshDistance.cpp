@@ -6,6 +6,8 @@
 #include "core/geometry/PointTriangle.h"
 #include "core/mesh/MeshBvh.h"
 #include "core/mesh/MeshSide.h"
+#include "core/mesh/NearestKernels.h"
+#include "core/mesh/PointOrder.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,12 +24,12 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kParallelGrain = 1024;
 constexpr std::size_t kMostRoots = 128;
+constexpr std::size_t kUnordered = 16; // points that go down the hierarchy as they come
 
 struct Hit
 {
   double squared = kInfinity;
   std::int32_t triangle = -1;
-  NearestOnTriangle nearest{};
 };
 
 struct Entry
@@ -50,74 +52,21 @@ double squaredDistance(
   return sum;
 }
 
-class Search
+// One point at a time; spares the few callers that have but one the arrays.
+Hit nearestOf(const TriangleMesh& mesh, const MeshBvh& bvh, const Vec3& p)
 {
-public:
-  Search(const TriangleMesh& mesh, const MeshBvh& bvh) : mesh_(mesh), bvh_(bvh) {}
+  Hit hit;
+  const PointBatch one{ &p.x(), &p.y(), &p.z(), 1 };
+  findNearest({ &mesh, &bvh, nullptr, one, nullptr, 1, kInfinity }, &hit.squared, &hit.triangle);
+  return hit;
+}
 
-  Hit nearest(const Vec3& p, double maxDistance, const MeshPart* part)
-  {
-    Hit hit;
-    hit.squared = maxDistance * maxDistance;
-    const Vec3 local = bvh_.toLocal(p);
-    stack_.clear();
-    if (part)
-    {
-      for (std::size_t k = part->roots.size(); k-- > 0;)
-      {
-        stack_.push_back({ 0.0, part->roots[k] });
-      }
-    }
-    else
-    {
-      stack_.push_back({ 0.0, 0 });
-    }
-    const double squaredScale = bvh_.scale() * bvh_.scale();
-    while (!stack_.empty())
-    {
-      const Entry entry = stack_.back();
-      stack_.pop_back();
-      if (entry.squared * (1.0 - 1e-6) > hit.squared * squaredScale)
-      {
-        continue;
-      }
-      if (entry.ref & MeshBvh::kLeafBit)
-      {
-        this->visitLeaf(bvh_.leaves()[entry.ref & ~MeshBvh::kLeafBit], p, hit);
-        continue;
-      }
-      const std::size_t first = stack_.size();
-      const MeshBvh::Node& node = bvh_.nodes()[entry.ref];
-      for (std::size_t k = 0; k < MeshBvh::kWidth && node.child[k] != MeshBvh::kNone; ++k)
-      {
-        stack_.push_back({ squaredDistance(node, k, local, local), node.child[k] });
-      }
-      std::sort(stack_.begin() + std::ptrdiff_t(first), stack_.end(),
-        [](const Entry& a, const Entry& b) { return a.squared > b.squared; });
-    }
-    return hit;
-  }
-
-private:
-  void visitLeaf(const MeshBvh::Leaf& leaf, const Vec3& p, Hit& hit) const
-  {
-    for (std::size_t j = 0; j < leaf.count; ++j)
-    {
-      const Triangle& c = mesh_.triangles[std::size_t(leaf.triangle[j])];
-      const NearestOnTriangle nearest = nearestOnTriangle(p, mesh_.points[std::size_t(c[0])],
-        mesh_.points[std::size_t(c[1])], mesh_.points[std::size_t(c[2])]);
-      if (nearest.squaredDistance < hit.squared ||
-        (hit.triangle < 0 && nearest.squaredDistance <= hit.squared))
-      {
-        hit = { nearest.squaredDistance, leaf.triangle[j], nearest };
-      }
-    }
-  }
-
-  const TriangleMesh& mesh_;
-  const MeshBvh& bvh_;
-  std::vector<Entry> stack_;
-};
+NearestOnTriangle nearestPoint(const TriangleMesh& mesh, const Vec3& p, std::int32_t triangle)
+{
+  const Triangle& c = mesh.triangles[std::size_t(triangle)];
+  return nearestOnTriangle(p, mesh.points[std::size_t(c[0])], mesh.points[std::size_t(c[1])],
+    mesh.points[std::size_t(c[2])]);
+}
 
 } // namespace
 
@@ -134,35 +83,61 @@ MeshDistance::MeshDistance(MeshPtr mesh) : mesh_(std::move(mesh))
 
 MeshDistance::~MeshDistance() = default;
 
-void MeshDistance::distance(
-  PointBatch points, double maxDistance, double* distance, const MeshPart* part) const
+// Squared distances and triangles of all points, sixteen neighbours at a time.
+void MeshDistance::find(PointBatch points, double maxDistance, const MeshPart* part,
+  double* squared, std::int32_t* triangle) const
 {
+  NearestQuery query{ mesh_.get(), bvh_.get(), part ? &part->roots : nullptr, points, nullptr, 0,
+    maxDistance };
+  if (points.size <= kUnordered)
+  {
+    query.count = points.size;
+    findNearest(query, squared, triangle);
+    return;
+  }
+  std::vector<std::uint32_t> order;
+  orderAlongCurve(points, order);
   parallelFor(points.size, kParallelGrain,
     [&](std::size_t begin, std::size_t end)
     {
-      Search search(*mesh_, *bvh_);
-      for (std::size_t k = begin; k < end; ++k)
-      {
-        const Hit hit = search.nearest(points[k], maxDistance, part);
-        distance[k] = hit.triangle < 0 ? kInfinity : std::sqrt(hit.squared);
-      }
+      NearestQuery mine = query;
+      mine.order = order.data() + begin;
+      mine.count = end - begin;
+      findNearest(mine, squared, triangle);
     });
+}
+
+void MeshDistance::distance(
+  PointBatch points, double maxDistance, double* distance, const MeshPart* part) const
+{
+  if (points.size == 1)
+  {
+    std::int32_t triangle;
+    this->find(points, maxDistance, part, distance, &triangle);
+    *distance = std::sqrt(*distance);
+    return;
+  }
+  std::vector<std::int32_t> triangle(points.size);
+  this->find(points, maxDistance, part, distance, triangle.data());
+  for (std::size_t k = 0; k < points.size; ++k)
+  {
+    distance[k] = std::sqrt(distance[k]);
+  }
 }
 
 void MeshDistance::nearest(PointBatch points, double maxDistance, double* distance,
   std::int32_t* triangle, VectorBatch nearestPoint, const MeshPart* part) const
 {
+  this->find(points, maxDistance, part, distance, triangle);
   parallelFor(points.size, kParallelGrain,
     [&](std::size_t begin, std::size_t end)
     {
-      Search search(*mesh_, *bvh_);
       for (std::size_t k = begin; k < end; ++k)
       {
-        const Hit hit = search.nearest(points[k], maxDistance, part);
-        const bool found = hit.triangle >= 0;
-        distance[k] = found ? std::sqrt(hit.squared) : kInfinity;
-        triangle[k] = hit.triangle;
-        nearestPoint.set(k, found ? hit.nearest.point : Vec3(kNaN, kNaN, kNaN));
+        distance[k] = std::sqrt(distance[k]);
+        nearestPoint.set(k,
+          triangle[k] >= 0 ? hybridtree::nearestPoint(*mesh_, points[k], triangle[k]).point
+                           : Vec3(kNaN, kNaN, kNaN));
       }
     });
 }
@@ -170,25 +145,25 @@ void MeshDistance::nearest(PointBatch points, double maxDistance, double* distan
 void MeshDistance::signedDistance(PointBatch points, double maxDistance, double* distance,
   VectorBatch gradient, const MeshPart* part) const
 {
+  std::vector<std::int32_t> triangle(points.size);
+  this->find(points, maxDistance, part, distance, triangle.data());
   parallelFor(points.size, kParallelGrain,
     [&](std::size_t begin, std::size_t end)
     {
-      Search search(*mesh_, *bvh_);
       for (std::size_t k = begin; k < end; ++k)
       {
         const Vec3 p = points[k];
-        const Hit hit = search.nearest(p, maxDistance, part);
         Vec3 direction = Vec3::Zero();
-        if (hit.triangle < 0)
+        if (triangle[k] < 0)
         {
           distance[k] = side_->side(p) > 0 ? -kInfinity : kInfinity;
         }
         else
         {
-          const int side = side_->side(p, hit.triangle, hit.nearest);
-          const double length = std::sqrt(hit.squared);
-          distance[k] = side > 0 ? -length : side < 0 ? length : 0.0;
-          direction = side_->gradient(p, side, hit.triangle, hit.nearest);
+          const NearestOnTriangle nearest = hybridtree::nearestPoint(*mesh_, p, triangle[k]);
+          const int side = side_->side(p, triangle[k], nearest);
+          distance[k] = -side * std::sqrt(distance[k]);
+          direction = side_->gradient(p, side, triangle[k], nearest);
         }
         if (gradient.x)
         {
@@ -200,20 +175,19 @@ void MeshDistance::signedDistance(PointBatch points, double maxDistance, double*
 
 void MeshDistance::side(PointBatch points, std::int8_t* side) const
 {
+  std::vector<double> squared(points.size);
+  std::vector<std::int32_t> triangle(points.size);
+  this->find(points, kInfinity, nullptr, squared.data(), triangle.data());
   parallelFor(points.size, kParallelGrain,
     [&](std::size_t begin, std::size_t end)
     {
-      Search search(*mesh_, *bvh_);
       for (std::size_t k = begin; k < end; ++k)
       {
         const Vec3 p = points[k];
-        if (this->isClosed() && !bounds_.contains(p))
-        {
-          side[k] = -1;
-          continue;
-        }
-        const Hit hit = search.nearest(p, kInfinity, nullptr);
-        side[k] = std::int8_t(side_->side(p, hit.triangle, hit.nearest));
+        const int found = triangle[k] < 0
+          ? side_->side(p)
+          : side_->side(p, triangle[k], nearestPoint(*mesh_, p, triangle[k]));
+        side[k] = std::int8_t(found);
       }
     });
 }
@@ -222,8 +196,7 @@ Interval MeshDistance::range(const Box3& box) const
 {
   const Vec3 center = box.center();
   const double half = 0.5 * box.diagonal().norm();
-  const double middle =
-    std::sqrt(Search(*mesh_, *bvh_).nearest(center, kInfinity, nullptr).squared);
+  const double middle = std::sqrt(nearestOf(*mesh_, *bvh_, center).squared);
   const double slack = 1e-12 * (middle + half);
   return { std::max(0.0, middle - half - slack), middle + half + slack };
 }
@@ -232,14 +205,14 @@ Interval MeshDistance::signedRange(const Box3& box) const
 {
   const Vec3 center = box.center();
   const double half = 0.5 * box.diagonal().norm();
-  const Hit hit = Search(*mesh_, *bvh_).nearest(center, kInfinity, nullptr);
+  const Hit hit = nearestOf(*mesh_, *bvh_, center);
   const double middle = std::sqrt(hit.squared);
   const double reach = half + 1e-12 * (middle + half);
   bool oneSide = this->isClosed();
   bool inside = false;
   if (oneSide)
   {
-    inside = side_->side(center, hit.triangle, hit.nearest) > 0;
+    inside = side_->side(center, hit.triangle, nearestPoint(*mesh_, center, hit.triangle)) > 0;
   }
   else if (middle > reach)
   {

@@ -82,6 +82,9 @@ public:
   std::vector<std::string> warnings() const;
 
 private:
+  void find(PointBatch points, double maxDistance, const MeshPart* part, double* squared,
+    std::int32_t* triangle) const;
+
   MeshPtr mesh_;
   Box3 bounds_;
   std::unique_ptr<const MeshBvh> bvh_;

@@ -120,13 +120,13 @@ private:
   Vec3 inverse_;
 };
 
-// Parity of the crossings with the segment p q: 1 odd, -1 even, 0 when p is on the mesh; empty when
-// the segment meets an edge or a vertex.
-std::optional<int> parity(
+// By the winding number, which the crossings with the segment p q add up to: 1 where it is
+// positive, else -1, 0 when p is on the mesh; empty when the segment meets an edge or a vertex.
+std::optional<int> sideBySegment(
   const TriangleMesh& mesh, const MeshBvh& bvh, const Vec3& p, const Vec3& q)
 {
   const SegmentBoxTest near(bvh.toLocal(p), bvh.toLocal(q));
-  bool odd = false;
+  int winding = 0;
   std::vector<std::uint32_t> stack{ 0 };
   while (!stack.empty())
   {
@@ -147,13 +147,15 @@ std::optional<int> parity(
       for (std::size_t j = 0; j < leaf.count; ++j)
       {
         const Triangle& c = mesh.triangles[std::size_t(leaf.triangle[j])];
-        switch (cross(mesh.points[std::size_t(c[0])], mesh.points[std::size_t(c[1])],
-          mesh.points[std::size_t(c[2])], p, q))
+        const Vec3& first = mesh.points[std::size_t(c[0])];
+        const Vec3& second = mesh.points[std::size_t(c[1])];
+        const Vec3& third = mesh.points[std::size_t(c[2])];
+        switch (cross(first, second, third, p, q))
         {
           case Crossing::No:
             break;
           case Crossing::Yes:
-            odd = !odd;
+            winding += orientation3d(first, second, third, p);
             break;
           case Crossing::Touches:
             return std::nullopt;
@@ -163,7 +165,7 @@ std::optional<int> parity(
       }
     }
   }
-  return odd ? 1 : -1;
+  return winding > 0 ? 1 : -1;
 }
 
 } // namespace
@@ -172,6 +174,7 @@ MeshSide::MeshSide(const TriangleMesh& mesh, const MeshBvh& bvh)
   : mesh_(mesh), bvh_(bvh), edges_(halfEdges(mesh.triangles)), bounds_(mesh.bounds())
 {
   this->makeVertexNormals();
+  overlapping_ = this->isClosed() && this->shellsMayOverlap();
   if (!this->isClosed())
   {
     winding_ = std::make_unique<const WindingNumber>(mesh, bvh);
@@ -186,6 +189,52 @@ MeshSide::MeshSide(const TriangleMesh& mesh, const MeshBvh& bvh)
       }
     }
   }
+}
+
+bool MeshSide::shellsMayOverlap() const
+{
+  constexpr std::size_t most = 1000; // pairs are compared one by one
+  std::vector<Box3> boxes;
+  std::vector<char> seen(mesh_.triangles.size(), 0);
+  std::vector<std::int32_t> open;
+  for (std::size_t first = 0; first < mesh_.triangles.size(); ++first)
+  {
+    if (seen[first])
+    {
+      continue;
+    }
+    if (boxes.size() == most)
+    {
+      return true;
+    }
+    Box3 box;
+    seen[first] = 1;
+    open.push_back(std::int32_t(first));
+    while (!open.empty())
+    {
+      const std::int32_t t = open.back();
+      open.pop_back();
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        box.extend(mesh_.points[std::size_t(mesh_.triangles[std::size_t(t)][k])]);
+        const std::int32_t next = edges_.opposite[std::size_t(3 * t) + k] / 3;
+        if (!seen[std::size_t(next)])
+        {
+          seen[std::size_t(next)] = 1;
+          open.push_back(next);
+        }
+      }
+    }
+    for (const Box3& other : boxes)
+    {
+      if (box.intersects(other))
+      {
+        return true;
+      }
+    }
+    boxes.push_back(box);
+  }
+  return false;
 }
 
 void MeshSide::makeVertexNormals()
@@ -265,7 +314,8 @@ int MeshSide::side(const Vec3& p, std::int32_t triangle, const NearestOnTriangle
   const double distance = offset.norm();
   const double above = offset.dot(this->pseudonormal(triangle, nearest.feature));
   const double size = 1.0 / bvh_.scale() + p.cwiseAbs().maxCoeff();
-  if (!doubtful && distance > kClearDistance * size && std::abs(above) > kClearAngle * distance)
+  if (!doubtful && !overlapping_ && distance > kClearDistance * size &&
+    std::abs(above) > kClearAngle * distance)
   {
     return above > 0.0 ? -1 : 1;
   }
@@ -292,7 +342,7 @@ int MeshSide::sideByRay(const Vec3& p) const
     const double height = std::sin(1.6180339887498949 * (attempt + 0.5772156649));
     const double ring = std::sqrt(1.0 - height * height);
     const Vec3 direction(ring * std::cos(azimuth), ring * std::sin(azimuth), height);
-    if (const std::optional<int> answer = parity(mesh_, bvh_, p, p + length * direction))
+    if (const std::optional<int> answer = sideBySegment(mesh_, bvh_, p, p + length * direction))
     {
       return *answer;
     }
@@ -304,7 +354,7 @@ int MeshSide::sideByRay(const Vec3& p) const
     angle += solidAngle(mesh_.points[std::size_t(c[0])], mesh_.points[std::size_t(c[1])],
       mesh_.points[std::size_t(c[2])], p);
   }
-  return std::abs(angle) > 0.5 * kFullSolidAngle ? 1 : -1;
+  return angle > 0.5 * kFullSolidAngle ? 1 : -1;
 }
 
 double MeshSide::windingSlope(double distance) const

@@ -16,8 +16,11 @@ namespace hybridtree
 /// On which side of a mesh a point lies: 1 inside, 0 on it, -1 outside.
 ///
 /// Closed meshes: by the angle-weighted pseudonormal of the nearest feature (Baerentzen and Aanaes
-/// 2005), and wherever rounding could touch its sign, by counting the crossings of a ray with exact
-/// orientation predicates. Others: by the winding number.
+/// 2005). Wherever rounding could touch its sign, and in meshes of several shells that may overlap
+/// (where a nearest point says nothing of the other shells), by the crossings of a ray, out less
+/// in, with exact orientation predicates: inside is where more shells are around than cavities.
+/// Others: by the winding number, which is the same for closed meshes.
+/// A single shell that crosses itself counts as it is seen from its nearest point.
 class MeshSide
 {
 public:
@@ -51,6 +54,7 @@ public:
 
 private:
   void makeVertexNormals();
+  bool shellsMayOverlap() const;
   int sideByRay(const Vec3& p) const;
 
   const TriangleMesh& mesh_;
@@ -59,6 +63,7 @@ private:
   Box3 bounds_;
   std::vector<Vec3> vertexNormals_;
   std::vector<char> doubtful_; // vertices of slivers, whose normals say little
+  bool overlapping_ = false;   // boxes of two shells meet
   double borderLength_ = 0.0;
   std::unique_ptr<const WindingNumber> winding_; // null for a closed mesh
 };

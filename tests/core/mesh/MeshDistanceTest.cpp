@@ -303,6 +303,8 @@ INSTANTIATE_TEST_SUITE_P(Meshes, MeshDistanceOf,
     NamedMesh{ "box", test::box({ 0, 0, 0 }, { 1, 2, 3 }) },
     NamedMesh{ "bumpy", test::bumpySphere(1.0, 3) },
     NamedMesh{ "hollow", test::hollowSphere(1.0, 0.9, 2) },
+    NamedMesh{ "overlapping",
+      test::joined(test::icosphere(1.0, 2), test::icosphere(0.8, 2, { 0.9, 0.1, 0 })) },
     NamedMesh{ "open", test::withoutTriangles(test::icosphere(1.0, 3), 40, 12) }),
   [](const auto& info) { return std::string(info.param.name); });
 
@@ -382,6 +384,25 @@ TEST(MeshDistance, SizeAndPlaceDoNotMatter)
       distance.distance(scaled.batch(), kInfinity, &found);
       EXPECT_NEAR(found / scale, bruteDistance(plain, cloud.batch()[k]), 1e-11) << scale;
     }
+  }
+}
+
+TEST(MeshDistance, PointsFarAwayFindTheMesh)
+{
+  const MeshDistance distance(repaired(test::icosphere(1.0, 2)));
+  for (const double far : { 1e3, 1e9, 1e18, 1e25 })
+  {
+    Cloud cloud;
+    for (int k = 0; k < 5; ++k)
+    {
+      cloud.add({ far, 0.1 * k, -far });
+    }
+    std::vector<double> found(5);
+    std::vector<std::int8_t> side(5);
+    distance.signedDistance(cloud.batch(), kInfinity, found.data(), {});
+    distance.side(cloud.batch(), side.data());
+    EXPECT_NEAR(found[3] / (std::sqrt(2.0) * far), 1.0, 1e-2);
+    EXPECT_EQ(side[3], -1);
   }
 }
 
