@@ -60,17 +60,28 @@ struct PointMath
 
 struct SegmentMath
 {
-  const SegmentShape shape;
+  // What each point needs, once per batch: a segment of a tree stays its two ends.
+  HWY_INLINE explicit SegmentMath(const SegmentShape& shape)
+    : start(shape.start), edge(shape.end - shape.start)
+  {
+    const double squared = edge.squaredNorm();
+    // A length whose square vanishes is none.
+    footGradient = squared > 1e-300 ? Vec3(edge / squared) : Vec3(Vec3::Zero());
+  }
+
+  Vec3 start;
+  Vec3 edge;
+  Vec3 footGradient;
 
   HWY_INLINE void offset(V& x, V& y, V& z) const
   {
-    x = hn::Sub(x, set(shape.start[0]));
-    y = hn::Sub(y, set(shape.start[1]));
-    z = hn::Sub(z, set(shape.start[2]));
-    const V foot = hn::Min(set(1.0), hn::Max(hn::Zero(D()), dot(shape.footGradient, x, y, z)));
-    x = hn::NegMulAdd(foot, set(shape.edge[0]), x);
-    y = hn::NegMulAdd(foot, set(shape.edge[1]), y);
-    z = hn::NegMulAdd(foot, set(shape.edge[2]), z);
+    x = hn::Sub(x, set(start[0]));
+    y = hn::Sub(y, set(start[1]));
+    z = hn::Sub(z, set(start[2]));
+    const V foot = hn::Min(set(1.0), hn::Max(hn::Zero(D()), dot(footGradient, x, y, z)));
+    x = hn::NegMulAdd(foot, set(edge[0]), x);
+    y = hn::NegMulAdd(foot, set(edge[1]), y);
+    z = hn::NegMulAdd(foot, set(edge[2]), z);
   }
   HWY_INLINE V squared(V x, V y, V z) const
   {
@@ -345,30 +356,30 @@ struct Kernels
 {
   static void distance(const Shape& shape, PointBatch points, double* out)
   {
-    forEachVector<1>(points, { out }, DistanceBody<Math>{ { shape } });
+    forEachVector<1>(points, { out }, DistanceBody<Math>{ Math{ shape } });
   }
   static void signedDistance(const Shape& shape, PointBatch points, double* out)
   {
-    forEachVector<1>(points, { out }, SignedDistanceBody<Math>{ { shape } });
+    forEachVector<1>(points, { out }, SignedDistanceBody<Math>{ Math{ shape } });
   }
   static void distanceAndGradient(
     const Shape& shape, PointBatch points, double* out, VectorBatch gradient)
   {
     forEachVector<4>(points, { out, gradient.x, gradient.y, gradient.z },
-      DistanceAndGradientBody<Math>{ { shape } });
+      DistanceAndGradientBody<Math>{ Math{ shape } });
   }
   static void addFalloff(const Shape& shape, const Falloff& falloff, PointBatch points, double* sum)
   {
     switch (falloff.exponent)
     {
       case 2:
-        forEachVector<1>(points, { sum }, AddFalloffBody<Math, 2>{ { shape }, falloff });
+        forEachVector<1>(points, { sum }, AddFalloffBody<Math, 2>{ Math{ shape }, falloff });
         break;
       case 3:
-        forEachVector<1>(points, { sum }, AddFalloffBody<Math, 3>{ { shape }, falloff });
+        forEachVector<1>(points, { sum }, AddFalloffBody<Math, 3>{ Math{ shape }, falloff });
         break;
       default:
-        forEachVector<1>(points, { sum }, AddFalloffBody<Math, 0>{ { shape }, falloff });
+        forEachVector<1>(points, { sum }, AddFalloffBody<Math, 0>{ Math{ shape }, falloff });
     }
   }
   static void addFalloffWithGradient(const Shape& shape, const Falloff& falloff, PointBatch points,
@@ -378,13 +389,16 @@ struct Kernels
     switch (falloff.exponent)
     {
       case 2:
-        forEachVector<4>(points, out, AddFalloffWithGradientBody<Math, 2>{ { shape }, falloff });
+        forEachVector<4>(
+          points, out, AddFalloffWithGradientBody<Math, 2>{ Math{ shape }, falloff });
         break;
       case 3:
-        forEachVector<4>(points, out, AddFalloffWithGradientBody<Math, 3>{ { shape }, falloff });
+        forEachVector<4>(
+          points, out, AddFalloffWithGradientBody<Math, 3>{ Math{ shape }, falloff });
         break;
       default:
-        forEachVector<4>(points, out, AddFalloffWithGradientBody<Math, 0>{ { shape }, falloff });
+        forEachVector<4>(
+          points, out, AddFalloffWithGradientBody<Math, 0>{ Math{ shape }, falloff });
     }
   }
 

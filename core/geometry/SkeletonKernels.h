@@ -8,7 +8,7 @@ namespace hybridtree
 {
 
 ///@{
-/// The shapes the kernels know, as plain numbers ready for use in the inner loop.
+/// The shapes the kernels know, as plain numbers.
 struct PointShape
 {
   Vec3 center;
@@ -17,9 +17,7 @@ struct PointShape
 struct SegmentShape
 {
   Vec3 start;
-  Vec3 edge;
-  /// edge / |edge|^2, or 0 for a segment of no length: the foot of p is then always `start`.
-  Vec3 footGradient;
+  Vec3 end;
 };
 
 struct CircleShape

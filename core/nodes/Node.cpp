@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <mutex>
 
 namespace hybridtree
 {
@@ -16,6 +17,31 @@ namespace
 constexpr std::size_t kKeptMeshes = 4;
 
 } // namespace
+
+struct Node::Meshes
+{
+  std::mutex mutex;
+  std::vector<std::pair<double, MeshPtr>> kept; // by edge length
+};
+
+Node::~Node()
+{
+  delete meshes_.load();
+}
+
+Node::Meshes& Node::meshes() const
+{
+  Meshes* meshes = meshes_.load();
+  if (!meshes)
+  {
+    auto made = std::make_unique<Meshes>();
+    if (meshes_.compare_exchange_strong(meshes, made.get()))
+    {
+      meshes = made.release();
+    }
+  }
+  return *meshes;
+}
 
 void Node::signedDistance(PointBatch points, double* distance) const
 {
@@ -38,8 +64,9 @@ MeshPtr Node::mesh(double edgeLength, const Progress& progress) const
   const double length = edgeLength > 0.0 ? edgeLength : this->defaultEdgeLength();
   // Held while meshing: a second thread that wants the same mesh waits for it instead of making it
   // again. Children lock their own mutex, and a tree has no cycles.
-  const std::lock_guard<std::mutex> lock(meshMutex_);
-  for (const auto& [kept, mesh] : meshes_)
+  Meshes& meshes = this->meshes();
+  const std::lock_guard<std::mutex> lock(meshes.mutex);
+  for (const auto& [kept, mesh] : meshes.kept)
   {
     if (kept == length)
     {
@@ -47,11 +74,11 @@ MeshPtr Node::mesh(double edgeLength, const Progress& progress) const
     }
   }
   auto mesh = std::make_shared<const TriangleMesh>(this->makeMesh(length, progress));
-  if (meshes_.size() == kKeptMeshes)
+  if (meshes.kept.size() == kKeptMeshes)
   {
-    meshes_.erase(meshes_.begin());
+    meshes.kept.erase(meshes.kept.begin());
   }
-  meshes_.emplace_back(length, mesh);
+  meshes.kept.emplace_back(length, mesh);
   return mesh;
 }
 

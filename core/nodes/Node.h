@@ -6,10 +6,9 @@
 #include "core/mesh/TriangleMesh.h"
 #include "core/polygonize/FieldSource.h"
 
-#include <mutex>
+#include <atomic>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace hybridtree
@@ -29,11 +28,18 @@ using NodePtr = std::shared_ptr<const Node>;
 
 /// A node of the HybridTree ([HT] 3): one shape, answered as field, gradient, membership and mesh.
 ///
-/// Immutable and shared: an edit makes new nodes on the path to the root and keeps the rest, with all
-/// that those have already computed. Any number of threads may ask one node.
-class Node : public FieldSource, public std::enable_shared_from_this<Node>
+/// Immutable and shared: an edit makes new nodes on the path to the root and keeps the rest, with
+/// all that those have already computed. Any number of threads may ask one node.
+class Node
+  : public FieldSource
+  , public std::enable_shared_from_this<Node>
 {
 public:
+  Node() = default;
+  ~Node() override;
+  Node(const Node&) = delete;
+  Node& operator=(const Node&) = delete;
+
   /// Classification of p_k ([HT] 4): 1 inside, 0 on the surface (within rounding), -1 outside.
   /// Answered by what is cheapest for the kind of node, not always by the field.
   virtual void membership(PointBatch points, std::int8_t* side) const = 0;
@@ -65,8 +71,8 @@ public:
   /// Diagonal of surfaceBounds() / 100.
   double defaultEdgeLength() const;
 
-  /// This shape under an affine map, pushed down to the leaves ([HT] 4.5.3). Exact: the field of the
-  /// image at map * p is this field at p, for similarities and for all other invertible maps.
+  /// This shape under an affine map, pushed down to the leaves ([HT] 4.5.3). Exact: the field of
+  /// the image at map * p is this field at p, for similarities and for all other invertible maps.
   /// \throws InvalidParameter for a map that is not finite or not invertible.
   NodePtr affine(const Affine3& map) const;
 
@@ -89,7 +95,8 @@ public:
   /// kind.
   virtual std::optional<SurfaceField> surfaceField() const { return std::nullopt; }
 
-  /// What the user should know about this node itself: repairs made to its input, folds, open meshes.
+  /// What the user should know about this node itself: repairs made to its input, folds, open
+  /// meshes.
   virtual std::vector<std::string> warnings() const { return {}; }
 
 protected:
@@ -102,8 +109,12 @@ protected:
   virtual NodePtr withChildren(std::vector<NodePtr> children) const;
 
 private:
-  mutable std::mutex meshMutex_;
-  mutable std::vector<std::pair<double, MeshPtr>> meshes_;
+  struct Meshes;
+
+  // Made with the first mesh: of the hundreds of leaves of a tree few are ever meshed.
+  Meshes& meshes() const;
+
+  mutable std::atomic<Meshes*> meshes_{ nullptr };
 };
 
 } // namespace hybridtree

@@ -21,15 +21,16 @@ namespace
 class LocalPoints
 {
 public:
-  LocalPoints(PointBatch points, bool mapped, const Affine3& inverse)
-    : scratch_(mapped ? points.size : 0), points_(mapped ? scratch_.points() : points)
+  /// \param inverse null for the identity.
+  LocalPoints(PointBatch points, const Affine3* inverse)
+    : scratch_(inverse ? points.size : 0), points_(inverse ? scratch_.points() : points)
   {
-    if (mapped)
+    if (inverse)
     {
       const VectorBatch local = scratch_.batch();
       for (std::size_t k = 0; k < points.size; ++k)
       {
-        local.set(k, inverse * points[k]);
+        local.set(k, *inverse * points[k]);
       }
     }
   }
@@ -55,35 +56,53 @@ double middleStretch(const std::optional<Affine3>& map)
 
 } // namespace
 
+struct Primitive::Placement
+{
+  Affine3 map; // from the space of skeleton and potential to that of the node
+  Affine3 inverse;
+};
+
 Primitive::Primitive(SkeletonPtr skeleton, const Potential& potential, const Affine3& map)
-  : skeleton_(std::move(skeleton))
-  , potential_(potential)
-  , falloff_(potential.falloff())
-  , surfaceRadius_(potential.surfaceRadius())
-  , inverse_(Affine3::Identity())
+  : skeleton_(std::move(skeleton)), potential_(potential)
 {
   if (map.matrix() != Affine3::Identity().matrix())
   {
-    map_ = map;
-    inverse_ = map.inverse();
+    placement_.reset(new Placement{ map, map.inverse() });
   }
-  influenceBounds_ = this->offsetBounds(potential_.influenceRadius());
-  if (this->hasSurface())
-  {
-    surfaceBounds_ = this->offsetBounds(*surfaceRadius_);
-  }
+}
+
+Primitive::~Primitive() = default;
+
+std::optional<Affine3> Primitive::map() const
+{
+  return placement_ ? std::optional<Affine3>(placement_->map) : std::nullopt;
+}
+
+Box3 Primitive::influenceBounds() const
+{
+  return this->offsetBounds(potential_.influenceRadius());
+}
+
+Box3 Primitive::surfaceBounds() const
+{
+  return this->hasSurface() ? this->offsetBounds(*potential_.surfaceRadius()) : Box3();
+}
+
+Box3 Primitive::toOwnSpace(const Box3& box) const
+{
+  return placement_ ? transformed(box, placement_->inverse) : box;
 }
 
 Box3 Primitive::offsetBounds(double radius) const
 {
   Box3 box = skeleton_->bounds();
   Vec3 reach = Vec3::Constant(radius);
-  if (map_)
+  if (placement_)
   {
     // The ball of the offset becomes an ellipsoid, whose extent along an axis is the length of that
     // row of the matrix.
-    box = transformed(box, *map_);
-    reach = radius * map_->linear().rowwise().norm();
+    box = transformed(box, placement_->map);
+    reach = radius * placement_->map.linear().rowwise().norm();
   }
   return Box3(Vec3(box.min() - reach), Vec3(box.max() + reach));
 }
@@ -105,29 +124,29 @@ void Primitive::fieldAndGradient(PointBatch points, double* value, VectorBatch g
 
 void Primitive::addField(PointBatch points, double* sum) const
 {
-  if (map_)
+  if (placement_)
   {
-    skeleton_->addFalloff(LocalPoints(points, true, inverse_), falloff_, sum);
+    skeleton_->addFalloff(LocalPoints(points, &placement_->inverse), potential_.falloff(), sum);
     return;
   }
-  skeleton_->addFalloff(points, falloff_, sum);
+  skeleton_->addFalloff(points, potential_.falloff(), sum);
 }
 
 void Primitive::addFieldAndGradient(PointBatch points, double* sum, VectorBatch gradientSum) const
 {
-  if (!map_)
+  if (!placement_)
   {
-    skeleton_->addFalloffWithGradient(points, falloff_, sum, gradientSum);
+    skeleton_->addFalloffWithGradient(points, potential_.falloff(), sum, gradientSum);
     return;
   }
-  const LocalPoints local(points, true, inverse_);
+  const LocalPoints local(points, &placement_->inverse);
   ScratchVectors own(points.size);
   const VectorBatch gradient = own.batch();
   std::fill_n(gradient.x, points.size, 0.0);
   std::fill_n(gradient.y, points.size, 0.0);
   std::fill_n(gradient.z, points.size, 0.0);
-  skeleton_->addFalloffWithGradient(local, falloff_, sum, gradient);
-  const Mat3 transposed = inverse_.linear().transpose();
+  skeleton_->addFalloffWithGradient(local, potential_.falloff(), sum, gradient);
+  const Mat3 transposed = placement_->inverse.linear().transpose();
   for (std::size_t k = 0; k < points.size; ++k)
   {
     gradientSum.set(k, gradientSum[k] + transposed * gradient[k]);
@@ -136,20 +155,20 @@ void Primitive::addFieldAndGradient(PointBatch points, double* sum, VectorBatch 
 
 Interval Primitive::range(const Box3& box) const
 {
-  if (!box.intersects(influenceBounds_))
+  if (!box.intersects(this->influenceBounds()))
   {
     return {};
   }
-  return potential_.range(skeleton_->distanceRange(map_ ? transformed(box, inverse_) : box));
+  return potential_.range(skeleton_->distanceRange(this->toOwnSpace(box)));
 }
 
 FieldSourcePtr Primitive::restrictedTo(const Box3& box) const
 {
-  if (!box.intersects(influenceBounds_))
+  if (!box.intersects(this->influenceBounds()))
   {
     return nullptr;
   }
-  const Interval distance = skeleton_->distanceRange(map_ ? transformed(box, inverse_) : box);
+  const Interval distance = skeleton_->distanceRange(this->toOwnSpace(box));
   return distance.min < potential_.influenceRadius() ? this->shared_from_this() : nullptr;
 }
 
@@ -160,10 +179,10 @@ void Primitive::membership(PointBatch points, std::int8_t* side) const
     std::fill_n(side, points.size, std::int8_t(-1));
     return;
   }
-  const LocalPoints local(points, map_.has_value(), inverse_);
+  const LocalPoints local(points, placement_ ? &placement_->inverse : nullptr);
   ScratchArray distance(points.size);
   skeleton_->signedDistance(local, distance.data());
-  const double radius = *surfaceRadius_;
+  const double radius = *potential_.surfaceRadius();
   const double rounding = roundingAt(skeleton_->bounds()) + 1e-14 * radius;
   for (std::size_t k = 0; k < points.size; ++k)
   {
@@ -174,21 +193,22 @@ void Primitive::membership(PointBatch points, std::int8_t* side) const
 
 void Primitive::signedDistance(PointBatch points, double* distance) const
 {
-  if (map_ || !this->hasSurface())
+  if (placement_ || !this->hasSurface())
   {
     Node::signedDistance(points, distance);
     return;
   }
   skeleton_->signedDistance(points, distance);
+  const double radius = *potential_.surfaceRadius();
   for (std::size_t k = 0; k < points.size; ++k)
   {
-    distance[k] -= *surfaceRadius_;
+    distance[k] -= radius;
   }
 }
 
 void Primitive::sourceLeaf(PointBatch points, std::int32_t* leaf) const
 {
-  const LocalPoints local(points, map_.has_value(), inverse_);
+  const LocalPoints local(points, placement_ ? &placement_->inverse : nullptr);
   ScratchArray distance(points.size);
   skeleton_->distance(local, distance.data());
   for (std::size_t k = 0; k < points.size; ++k)
@@ -199,13 +219,14 @@ void Primitive::sourceLeaf(PointBatch points, std::int32_t* leaf) const
 
 std::optional<SurfaceField> Primitive::surfaceField() const
 {
-  if (!surfaceRadius_)
+  if (!potential_.surfaceRadius())
   {
     return std::nullopt;
   }
-  const double scale = map_ ? std::cbrt(std::abs(map_->linear().determinant())) : 1.0;
+  const double scale =
+    placement_ ? std::cbrt(std::abs(placement_->map.linear().determinant())) : 1.0;
   return SurfaceField{ potential_.maximumField(),
-    scale * (potential_.influenceRadius() - *surfaceRadius_), potential_.exponent() };
+    scale * (potential_.influenceRadius() - *potential_.surfaceRadius()), potential_.exponent() };
 }
 
 Parameters Primitive::parameters() const
@@ -218,9 +239,9 @@ Parameters Primitive::parameters() const
     parameters.set(name, value);
   }
   potential_.describe(parameters);
-  if (map_)
+  if (placement_)
   {
-    parameters.set("map", *map_);
+    parameters.set("map", placement_->map);
   }
   return parameters;
 }
@@ -233,14 +254,14 @@ TriangleMesh Primitive::makeMesh(double edgeLength, const Progress& progress) co
   }
   progress.check();
   std::optional<TriangleMesh> direct =
-    skeleton_->offsetMesh(*surfaceRadius_, edgeLength / middleStretch(map_));
+    skeleton_->offsetMesh(*potential_.surfaceRadius(), edgeLength / middleStretch(this->map()));
   if (!direct)
   {
     return latticeMesh(*this, edgeLength, progress);
   }
   TriangleMesh mesh = std::move(*direct);
   mesh.sourceLeaf.assign(mesh.triangles.size(), 0);
-  if (map_)
+  if (placement_)
   {
     this->mapMesh(mesh);
     RemeshOptions options;
@@ -256,13 +277,13 @@ TriangleMesh Primitive::makeMesh(double edgeLength, const Progress& progress) co
 
 void Primitive::mapMesh(TriangleMesh& mesh) const
 {
-  const Mat3 toNormals = inverse_.linear().transpose();
+  const Mat3 toNormals = placement_->inverse.linear().transpose();
   for (std::size_t k = 0; k < mesh.points.size(); ++k)
   {
-    mesh.points[k] = *map_ * mesh.points[k];
+    mesh.points[k] = placement_->map * mesh.points[k];
     mesh.normals[k] = (toNormals * mesh.normals[k]).normalized();
   }
-  if (map_->linear().determinant() < 0.0)
+  if (placement_->map.linear().determinant() < 0.0)
   {
     for (Triangle& triangle : mesh.triangles)
     {
@@ -273,26 +294,26 @@ void Primitive::mapMesh(TriangleMesh& mesh) const
 
 void Primitive::projectOntoSurface(std::vector<Vec3>& points, std::vector<Vec3>& normals) const
 {
-  const Affine3 map = map_.value_or(Affine3::Identity());
+  const double radius = *potential_.surfaceRadius();
   for (std::size_t k = 0; k < points.size(); ++k)
   {
-    const Vec3 p = inverse_ * points[k];
+    const Vec3 p = placement_->inverse * points[k];
     double distance;
     Vec3 outward;
     skeleton_->distanceAndGradient(
       { &p.x(), &p.y(), &p.z(), 1 }, &distance, { &outward.x(), &outward.y(), &outward.z() });
-    points[k] = map * Vec3(p - (distance - *surfaceRadius_) * outward);
+    points[k] = placement_->map * Vec3(p - (distance - radius) * outward);
     // On a sharp box the interpolated normals are those to keep.
-    if (*surfaceRadius_ > 0.0 && distance > 0.0)
+    if (radius > 0.0 && distance > 0.0)
     {
-      normals[k] = (inverse_.linear().transpose() * outward).normalized();
+      normals[k] = (placement_->inverse.linear().transpose() * outward).normalized();
     }
   }
 }
 
 NodePtr Primitive::makeAffine(const Affine3& map) const
 {
-  return makePrimitive(skeleton_, potential_, map_ ? map * *map_ : map);
+  return makePrimitive(skeleton_, potential_, placement_ ? map * placement_->map : map);
 }
 
 NodePtr makePrimitive(SkeletonPtr skeleton, const Potential& potential, const Affine3& map)

@@ -6,6 +6,7 @@
 #include "core/nodes/Potential.h"
 #include "core/skeletons/Skeleton.h"
 
+#include <memory>
 #include <optional>
 
 namespace hybridtree
@@ -21,11 +22,12 @@ class Primitive final : public Node
 public:
   /// \pre map is the identity or no similarity (makePrimitive() sees to it).
   Primitive(SkeletonPtr skeleton, const Potential& potential, const Affine3& map);
+  ~Primitive() override;
 
   const Skeleton& skeleton() const { return *skeleton_; }
   const Potential& potential() const { return potential_; }
   /// From the space of skeleton and potential to that of the node; empty for the identity.
-  const std::optional<Affine3>& map() const { return map_; }
+  std::optional<Affine3> map() const;
 
   void field(PointBatch points, double* value) const override;
   void fieldAndGradient(PointBatch points, double* value, VectorBatch gradient) const override;
@@ -45,8 +47,8 @@ public:
   void sourceLeaf(PointBatch points, std::int32_t* leaf) const override;
   int leafCount() const override { return 1; }
 
-  Box3 influenceBounds() const override { return influenceBounds_; }
-  Box3 surfaceBounds() const override { return surfaceBounds_; }
+  Box3 influenceBounds() const override;
+  Box3 surfaceBounds() const override;
   bool isNegative() const override { return potential_.isNegative(); }
   std::optional<SurfaceField> surfaceField() const override;
 
@@ -62,21 +64,21 @@ protected:
   NodePtr makeAffine(const Affine3& map) const override;
 
 private:
-  bool hasSurface() const { return surfaceRadius_ && !this->isNegative(); }
+  struct Placement;
+
+  bool hasSurface() const { return potential_.surfaceRadius() && !this->isNegative(); }
   Box3 offsetBounds(double radius) const;
+  Box3 toOwnSpace(const Box3& box) const;
 
   /// From the leaf's own space to that of the node.
   void mapMesh(TriangleMesh& mesh) const;
   void projectOntoSurface(std::vector<Vec3>& points, std::vector<Vec3>& normals) const;
 
+  // No more than it takes: a tree of 250 primitives is to fit into 64 KiB ([HT] 6.3). Bounds and
+  // the surface radius are cheap beside a batch of points.
   SkeletonPtr skeleton_;
   Potential potential_;
-  Falloff falloff_;
-  std::optional<double> surfaceRadius_;
-  std::optional<Affine3> map_;
-  Affine3 inverse_;
-  Box3 influenceBounds_;
-  Box3 surfaceBounds_;
+  std::unique_ptr<const Placement> placement_; // null for the identity
 };
 
 /// A primitive, or its image under a map: similarities are absorbed by skeleton and potential,

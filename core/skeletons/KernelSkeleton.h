@@ -14,33 +14,30 @@ class KernelSkeleton : public Skeleton
 public:
   void distance(PointBatch points, double* distance) const override
   {
-    kernels_.distance(shape_, points, distance);
+    kernelsFor(shape_).distance(shape_, points, distance);
   }
   void distanceAndGradient(PointBatch points, double* distance, VectorBatch gradient) const override
   {
-    kernels_.distanceAndGradient(shape_, points, distance, gradient);
+    kernelsFor(shape_).distanceAndGradient(shape_, points, distance, gradient);
   }
   void signedDistance(PointBatch points, double* distance) const override
   {
-    kernels_.signedDistance(shape_, points, distance);
+    kernelsFor(shape_).signedDistance(shape_, points, distance);
   }
   void addFalloff(PointBatch points, const Falloff& falloff, double* sum) const override
   {
-    kernels_.addFalloff(shape_, falloff, points, sum);
+    kernelsFor(shape_).addFalloff(shape_, falloff, points, sum);
   }
   void addFalloffWithGradient(
     PointBatch points, const Falloff& falloff, double* sum, VectorBatch gradientSum) const override
   {
-    kernels_.addFalloffWithGradient(shape_, falloff, points, sum, gradientSum);
+    kernelsFor(shape_).addFalloffWithGradient(shape_, falloff, points, sum, gradientSum);
   }
 
 protected:
-  explicit KernelSkeleton(const Shape& shape) : shape_(shape), kernels_(kernelsFor(shape)) {}
+  explicit KernelSkeleton(const Shape& shape) : shape_(shape) {}
 
   const Shape shape_;
-
-private:
-  const SkeletonKernels<Shape>& kernels_;
 };
 
 } // namespace hybridtree

@@ -7,21 +7,8 @@
 
 namespace hybridtree
 {
-namespace
-{
-
-SegmentShape segmentShape(const Vec3& a, const Vec3& b)
-{
-  const Vec3 edge = b - a;
-  const double squared = edge.squaredNorm();
-  // A length whose square vanishes is none.
-  return { a, edge, squared > 1e-300 ? Vec3(edge / squared) : Vec3(Vec3::Zero()) };
-}
-
-} // namespace
-
 SegmentSkeleton::SegmentSkeleton(const Vec3& a, const Vec3& b)
-  : KernelSkeleton(segmentShape(requireFinite("Point1", a), requireFinite("Point2", b))), b_(b)
+  : KernelSkeleton({ requireFinite("Point1", a), requireFinite("Point2", b) })
 {
 }
 
@@ -41,15 +28,16 @@ std::optional<TriangleMesh> SegmentSkeleton::offsetMesh(double radius, double ed
   {
     return TriangleMesh(); // encloses nothing
   }
-  const double length = shape_.edge.stableNorm();
+  const Vec3 edge = this->b() - this->a();
+  const double length = edge.stableNorm();
   Mat3 axes = Mat3::Identity();
   if (length > 0.0)
   {
-    axes.col(2) = shape_.edge / length;
+    axes.col(2) = edge / length;
     axes.col(0) = anyAcross(axes.col(2));
     axes.col(1) = axes.col(2).cross(axes.col(0));
   }
-  const Vec3 middle = this->a() + 0.5 * shape_.edge;
+  const Vec3 middle = this->a() + 0.5 * edge;
   return meshRoundedBox({ middle, axes, Vec3(0.0, 0.0, 0.5 * length) }, radius, edgeLength);
 }
 

@@ -14,7 +14,7 @@ public:
   SegmentSkeleton(const Vec3& a, const Vec3& b);
 
   const Vec3& a() const { return shape_.start; }
-  const Vec3& b() const { return b_; }
+  const Vec3& b() const { return shape_.end; }
 
   Interval distanceRange(const Box3& box) const override;
   Box3 bounds() const override;
@@ -24,9 +24,6 @@ public:
   /// "point1", "point2".
   Parameters parameters() const override;
   static SkeletonPtr fromParameters(const Parameters& parameters);
-
-private:
-  Vec3 b_;
 };
 
 } // namespace hybridtree
