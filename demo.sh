@@ -6,3 +6,11 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/scripts/setup.sh"
 
 setup
+output="$(realpath -m "${1:-$project_dir/demo-output}")"
+mkdir -p "$output"
+export HYBRIDTREE_PLUGIN="$build_dir/lib/paraview-5.11/plugins/HybridTree/HybridTree.so"
+for example in kitten restoration; do
+  say "running examples/python/$example.py"
+  with_display pvpython "$project_dir/examples/python/$example.py" "$output"
+done
+say "done, see $output"

@@ -49,7 +49,8 @@ install_packages()
   [ ${#missing[@]} -eq 0 ] && return
   update_package_lists
   say "installing ${missing[*]}"
-  as_root apt-get install -qq -y --no-install-recommends -o Dpkg::Use-Pty=0 "${missing[@]}" \
+  as_root apt-get install -qq -y --no-install-recommends -o Dpkg::Use-Pty=0 \
+    -o "Dpkg::Options::=--path-include=/usr/share/doc/libcgal-dev/*" "${missing[@]}" \
     >"$build_dir/apt.log" 2>&1 || { tail -n 20 "$build_dir/apt.log" >&2; fail "apt-get failed, see $build_dir/apt.log"; }
 }
 
