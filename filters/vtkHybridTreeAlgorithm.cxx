@@ -3,12 +3,12 @@
 
 #include "core/base/Error.h"
 #include "core/nodes/Node.h"
+#include "vtkExecutive.h"
 #include "vtkHybridTreeArray.h"
 #include "vtkHybridTreeConvert.h"
 #include "vtkHybridTreeFormulation.h"
 #include "vtkHybridTreeLeaves.h"
 #include "vtkHybridTreeOperand.h"
-#include "vtkHybridTreePipeline.h"
 #include "vtkHybridTreeProgress.h"
 #include "vtkInformation.h"
 #include "vtkInformationIntegerKey.h"
@@ -74,9 +74,10 @@ int vtkHybridTreeAlgorithm::FillInputPortInformation(int port, vtkInformation* i
 }
 
 //------------------------------------------------------------------------------
-vtkExecutive* vtkHybridTreeAlgorithm::CreateDefaultExecutive()
+int vtkHybridTreeAlgorithm::ModifyRequest(vtkInformation*, int when)
 {
-  return vtkHybridTreePipeline::New();
+  hybridtree::askProducers(this, when == vtkExecutive::BeforeForward);
+  return 1;
 }
 
 //------------------------------------------------------------------------------

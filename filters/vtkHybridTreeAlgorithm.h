@@ -132,7 +132,7 @@ protected:
     vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
   int RequestData(
     vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
-  vtkExecutive* CreateDefaultExecutive() override;
+  int ModifyRequest(vtkInformation* request, int when) override;
 
   double EdgeLength = 0.0;
 

@@ -10,6 +10,8 @@
 #include "vtkInformationVector.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
+#include <vector>
+
 namespace hybridtree
 {
 namespace
@@ -82,34 +84,29 @@ vtkInformationIntegerRequestKey* formulationKey()
   return key;
 }
 
-FormulationRequest::FormulationRequest(vtkAlgorithm* consumer, int port, int connection)
+void askProducers(vtkAlgorithm* consumer, bool travels)
 {
-  vtkAlgorithmOutput* producer = consumer->GetInputConnection(port, connection);
-  if (!producer)
+  // MESH comes last, so that it wins where one producer feeds both kinds of port.
+  for (const bool trees : { true, false })
   {
-    return;
-  }
-  if (takesTree(consumer, port))
-  {
-    asked_ = pathToNode(producer);
-  }
-  for (vtkInformation* output : asked_)
-  {
-    ask(output, Formulation::Field);
-  }
-  if (asked_.empty())
-  {
-    // The executive copies what is asked of the consumer to its inputs by default.
-    asked_ = { informationOf(producer) };
-    ask(asked_.front(), Formulation::Mesh);
-  }
-}
-
-FormulationRequest::~FormulationRequest()
-{
-  for (vtkInformation* output : asked_)
-  {
-    ask(output, Formulation::Mesh);
+    for (int port = 0; port < consumer->GetNumberOfInputPorts(); ++port)
+    {
+      for (int k = 0; k < consumer->GetNumberOfInputConnections(port); ++k)
+      {
+        vtkAlgorithmOutput* producer = consumer->GetInputConnection(port, k);
+        const std::vector<vtkInformation*> path = producer && takesTree(consumer, port)
+          ? pathToNode(producer)
+          : std::vector<vtkInformation*>();
+        for (vtkInformation* output : trees ? path : std::vector<vtkInformation*>())
+        {
+          ask(output, travels ? Formulation::Field : Formulation::Mesh);
+        }
+        if (!trees && producer && path.empty())
+        {
+          ask(informationOf(producer), Formulation::Mesh);
+        }
+      }
+    }
   }
 }
 

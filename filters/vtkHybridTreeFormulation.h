@@ -4,13 +4,11 @@
 // The request is a key on the information that a producer shares with all its consumers. A key that
 // stayed there would speak for consumers that never asked, and for updates to come. So it says
 // FIELD only while the request of a taker of trees travels up that one connection, and MESH at all
-// other times (FormulationRequest). A view, a writer or a foreign filter never finds anything but
+// other times (askProducers). A view, a writer or a foreign filter never finds anything but
 // MESH, and an output made as FIELD is made again for it. Data made as MESH also serves a later
 // FIELD.
 #ifndef vtkHybridTreeFormulation_h
 #define vtkHybridTreeFormulation_h
-
-#include <vector>
 
 class vtkAlgorithm;
 class vtkInformation;
@@ -29,19 +27,12 @@ enum class Formulation
 /// The one key of this kind.
 vtkInformationIntegerRequestKey* formulationKey();
 
-/// For as long as it lives, asks the producer at one input connection for FIELD, if the port takes
-/// trees and the producer, seen through pass-through filters, is a node filter. Else for MESH.
-class FormulationRequest
-{
-public:
-  FormulationRequest(vtkAlgorithm* consumer, int port, int connection);
-  ~FormulationRequest();
-  FormulationRequest(const FormulationRequest&) = delete;
-  FormulationRequest& operator=(const FormulationRequest&) = delete;
-
-private:
-  std::vector<vtkInformation*> asked_;
-};
+/// For ModifyRequest of a consumer, before (`travels`) and after its request goes upstream: asks
+/// the producers at ports that take trees for FIELD while it travels, if they are node filters,
+/// seen through pass-through filters; all others, and all of them afterwards, for MESH.
+/// ModifyRequest and not an executive of our own, since ParaView gives every filter an executive of
+/// its choice.
+void askProducers(vtkAlgorithm* consumer, bool travels);
 
 /// For RequestUpdateExtent of a consumer: asks at this port for the whole data as one piece, since
 /// no node can be made of part of its operands.

@@ -6,10 +6,10 @@
 #include "core/nodes/Node.h"
 #include "vtkDataSet.h"
 #include "vtkDoubleArray.h"
+#include "vtkExecutive.h"
 #include "vtkHybridTreeAlgorithm.h"
 #include "vtkHybridTreeFormulation.h"
 #include "vtkHybridTreeOperand.h"
-#include "vtkHybridTreePipeline.h"
 #include "vtkHybridTreeProgress.h"
 #include "vtkInformation.h"
 #include "vtkInformationIntegerKey.h"
@@ -124,9 +124,10 @@ vtkHybridTreeProbe::vtkHybridTreeProbe() : Internals(new State)
 vtkHybridTreeProbe::~vtkHybridTreeProbe() = default;
 
 //------------------------------------------------------------------------------
-vtkExecutive* vtkHybridTreeProbe::CreateDefaultExecutive()
+int vtkHybridTreeProbe::ModifyRequest(vtkInformation*, int when)
 {
-  return vtkHybridTreePipeline::New();
+  hybridtree::askProducers(this, when == vtkExecutive::BeforeForward);
+  return 1;
 }
 
 //------------------------------------------------------------------------------

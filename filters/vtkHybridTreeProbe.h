@@ -34,7 +34,7 @@ protected:
   vtkHybridTreeProbe();
   ~vtkHybridTreeProbe() override;
 
-  vtkExecutive* CreateDefaultExecutive() override;
+  int ModifyRequest(vtkInformation* request, int when) override;
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestDataObject(
     vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
