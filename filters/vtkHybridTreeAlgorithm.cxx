@@ -27,8 +27,9 @@ struct vtkHybridTreeAlgorithm::State
 {
   std::vector<std::vector<hybridtree::Operand>> Inputs; ///< by port and connection
   NodePtr Node;
-  vtkMTimeType NodeTime = 0;     ///< modification time of the filter that Node belongs to
-  Operands NodeOperands;         ///< operands that Node was made from
+  vtkMTimeType NodeTime = 0; ///< modification time of the filter that Node belongs to
+  Operands NodeOperands;     ///< operands that Node was made from
+  hybridtree::FormulationRequest Asked;
   std::vector<std::string> Told; ///< warnings already given about Node
 };
 
@@ -76,7 +77,8 @@ int vtkHybridTreeAlgorithm::FillInputPortInformation(int port, vtkInformation* i
 //------------------------------------------------------------------------------
 int vtkHybridTreeAlgorithm::ModifyRequest(vtkInformation*, int when)
 {
-  hybridtree::askProducers(this, when == vtkExecutive::BeforeForward);
+  hybridtree::FormulationRequest& asked = this->Internals->Asked;
+  when == vtkExecutive::BeforeForward ? asked.send(this) : asked.takeBack();
   return 1;
 }
 

@@ -10,7 +10,7 @@
 #include "vtkInformationVector.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
-#include <vector>
+#include <utility>
 
 namespace hybridtree
 {
@@ -71,9 +71,48 @@ std::vector<vtkInformation*> pathToNode(vtkAlgorithmOutput* output)
   return path;
 }
 
-void ask(vtkInformation* output, Formulation formulation)
+/// Every node output upstream of an input connection whose mesh the update under way needs: there
+/// is a consumer on the way that does not make do with the tree. It would find our FIELD.
+void collectMeshUsers(
+  vtkAlgorithm* consumer, int port, int connection, std::set<vtkInformation*>& outputs)
 {
-  output->Set(formulationKey(), static_cast<int>(formulation));
+  struct Step
+  {
+    vtkAlgorithm* consumer;
+    int port;
+    int connection;
+    bool foreign; // behind a consumer that is not content with the tree
+  };
+  std::set<std::pair<vtkAlgorithm*, bool>> seen;
+  std::vector<Step> steps{ { consumer, port, connection, false } };
+  while (!steps.empty())
+  {
+    const Step step = steps.back();
+    steps.pop_back();
+    vtkAlgorithmOutput* output = step.consumer->GetInputConnection(step.port, step.connection);
+    if (!output)
+    {
+      continue;
+    }
+    const bool foreign =
+      step.foreign || !(passesThrough(step.consumer) || takesTree(step.consumer, step.port));
+    vtkAlgorithm* producer = output->GetProducer();
+    if (foreign)
+    {
+      outputs.insert(informationOf(output));
+    }
+    if (!seen.insert({ producer, foreign }).second)
+    {
+      continue;
+    }
+    for (int p = 0; p < producer->GetNumberOfInputPorts(); ++p)
+    {
+      for (int k = 0; k < producer->GetNumberOfInputConnections(p); ++k)
+      {
+        steps.push_back({ producer, p, k, foreign });
+      }
+    }
+  }
 }
 
 } // namespace
@@ -84,30 +123,56 @@ vtkInformationIntegerRequestKey* formulationKey()
   return key;
 }
 
-void askProducers(vtkAlgorithm* consumer, bool travels)
+void FormulationRequest::send(vtkAlgorithm* consumer)
 {
-  // MESH comes last, so that it wins where one producer feeds both kinds of port.
-  for (const bool trees : { true, false })
+  std::set<vtkInformation*> meshUsers;
+  for (int port = 0; port < consumer->GetNumberOfInputPorts(); ++port)
   {
-    for (int port = 0; port < consumer->GetNumberOfInputPorts(); ++port)
+    for (int k = 0; k < consumer->GetNumberOfInputConnections(port); ++k)
     {
-      for (int k = 0; k < consumer->GetNumberOfInputConnections(port); ++k)
-      {
-        vtkAlgorithmOutput* producer = consumer->GetInputConnection(port, k);
-        const std::vector<vtkInformation*> path = producer && takesTree(consumer, port)
-          ? pathToNode(producer)
-          : std::vector<vtkInformation*>();
-        for (vtkInformation* output : trees ? path : std::vector<vtkInformation*>())
-        {
-          ask(output, travels ? Formulation::Field : Formulation::Mesh);
-        }
-        if (!trees && producer && path.empty())
-        {
-          ask(informationOf(producer), Formulation::Mesh);
-        }
-      }
+      collectMeshUsers(consumer, port, k, meshUsers);
     }
   }
+  for (int port = 0; port < consumer->GetNumberOfInputPorts(); ++port)
+  {
+    for (int k = 0; k < consumer->GetNumberOfInputConnections(port); ++k)
+    {
+      this->ask(consumer, port, k, meshUsers);
+    }
+  }
+}
+
+void FormulationRequest::ask(
+  vtkAlgorithm* consumer, int port, int connection, const std::set<vtkInformation*>& meshUsers)
+{
+  vtkAlgorithmOutput* producer = consumer->GetInputConnection(port, connection);
+  if (!producer)
+  {
+    return;
+  }
+  std::vector<vtkInformation*> path = pathToNode(producer);
+  const bool field =
+    takesTree(consumer, port) && !path.empty() && meshUsers.count(path.back()) == 0;
+  if (path.empty())
+  {
+    // Even so: an executive copies what is asked of a consumer to its inputs by default.
+    path.push_back(informationOf(producer));
+  }
+  for (vtkInformation* output : path)
+  {
+    before_.emplace_back(output, output->Get(formulationKey()));
+    output->Set(formulationKey(), static_cast<int>(field ? Formulation::Field : Formulation::Mesh));
+  }
+}
+
+void FormulationRequest::takeBack()
+{
+  // The latest first: an output that was asked twice gets back what it had at first.
+  for (auto asked = before_.rbegin(); asked != before_.rend(); ++asked)
+  {
+    asked->first->Set(formulationKey(), asked->second);
+  }
+  before_.clear();
 }
 
 void askWhole(int port, vtkInformationVector** inputs)

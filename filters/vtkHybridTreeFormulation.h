@@ -4,11 +4,15 @@
 // The request is a key on the information that a producer shares with all its consumers. A key that
 // stayed there would speak for consumers that never asked, and for updates to come. So it says
 // FIELD only while the request of a taker of trees travels up that one connection, and MESH at all
-// other times (askProducers). A view, a writer or a foreign filter never finds anything but
+// other times (FormulationRequest). A view, a writer or a foreign filter never finds anything but
 // MESH, and an output made as FIELD is made again for it. Data made as MESH also serves a later
 // FIELD.
 #ifndef vtkHybridTreeFormulation_h
 #define vtkHybridTreeFormulation_h
+
+#include <set>
+#include <utility>
+#include <vector>
 
 class vtkAlgorithm;
 class vtkInformation;
@@ -27,12 +31,24 @@ enum class Formulation
 /// The one key of this kind.
 vtkInformationIntegerRequestKey* formulationKey();
 
-/// For ModifyRequest of a consumer, before (`travels`) and after its request goes upstream: asks
-/// the producers at ports that take trees for FIELD while it travels, if they are node filters,
-/// seen through pass-through filters; all others, and all of them afterwards, for MESH.
-/// ModifyRequest and not an executive of our own, since ParaView gives every filter an executive of
-/// its choice.
-void askProducers(vtkAlgorithm* consumer, bool travels);
+/// What a consumer asks of its producers while one request travels upstream: FIELD at ports that
+/// take trees, where a node filter is (seen through pass-through filters) whose mesh nobody else
+/// needs in the same update; MESH elsewhere.
+/// Used in vtkAlgorithm::ModifyRequest, and not in an executive of our own, since ParaView gives
+/// every filter an executive of its choice.
+class FormulationRequest
+{
+public:
+  void send(vtkAlgorithm* consumer);
+  /// Leaves the key as it was before send().
+  void takeBack();
+
+private:
+  void ask(
+    vtkAlgorithm* consumer, int port, int connection, const std::set<vtkInformation*>& meshUsers);
+
+  std::vector<std::pair<vtkInformation*, int>> before_;
+};
 
 /// For RequestUpdateExtent of a consumer: asks at this port for the whole data as one piece, since
 /// no node can be made of part of its operands.

@@ -28,6 +28,7 @@ vtkStandardNewMacro(vtkHybridTreeProbe);
 struct vtkHybridTreeProbe::State
 {
   hybridtree::Operand Tree;
+  hybridtree::FormulationRequest Asked;
 };
 
 namespace
@@ -126,7 +127,8 @@ vtkHybridTreeProbe::~vtkHybridTreeProbe() = default;
 //------------------------------------------------------------------------------
 int vtkHybridTreeProbe::ModifyRequest(vtkInformation*, int when)
 {
-  hybridtree::askProducers(this, when == vtkExecutive::BeforeForward);
+  hybridtree::FormulationRequest& asked = this->Internals->Asked;
+  when == vtkExecutive::BeforeForward ? asked.send(this) : asked.takeBack();
   return 1;
 }
 
