@@ -61,6 +61,19 @@ public:
     , b_(std::move(b))
     , source_(operation, form == BooleanForm::Automatic ? BooleanForm::MinMax : form, a_, b_)
   {
+    // Kept: asked often, and by walking the tree they would cost what it has leaves.
+    const std::int64_t leaves = std::int64_t(a_->leafCount()) + b_->leafCount();
+    leafCount_ = static_cast<int>(std::min<std::int64_t>(leaves, std::numeric_limits<int>::max()));
+    negative_ = a_->isNegative() && b_->isNegative();
+    // What only carves counts as 0.
+    const auto kept = [](const Node& node, const Box3& box)
+    { return node.isNegative() ? Box3() : box; };
+    const bool reachesOut =
+      form_ == BooleanForm::Paper && operation_ == BooleanOperation::Intersection;
+    influence_ = combinedBounds(kept(*a_, a_->influenceBounds()), kept(*b_, b_->influenceBounds()),
+      reachesOut ? BooleanOperation::Union : operation_);
+    surface_ =
+      combinedBounds(kept(*a_, a_->surfaceBounds()), kept(*b_, b_->surfaceBounds()), operation_);
   }
 
   void field(PointBatch points, double* value) const override { source_.field(points, value); }
@@ -120,29 +133,10 @@ public:
       *b_, points, [&](std::size_t k) { return makes(k) && !byA(k); }, a_->leafCount(), leaf);
   }
 
-  int leafCount() const override
-  {
-    const std::int64_t count = std::int64_t(a_->leafCount()) + b_->leafCount();
-    return static_cast<int>(std::min<std::int64_t>(count, std::numeric_limits<int>::max()));
-  }
-
-  Box3 influenceBounds() const override
-  {
-    const Box3 a = a_->isNegative() ? Box3() : a_->influenceBounds();
-    const Box3 b = b_->isNegative() ? Box3() : b_->influenceBounds();
-    const bool reachesOut =
-      form_ == BooleanForm::Paper && operation_ == BooleanOperation::Intersection;
-    return this->combinedBounds(a, b, reachesOut ? BooleanOperation::Union : operation_);
-  }
-
-  Box3 surfaceBounds() const override
-  {
-    const Box3 a = a_->isNegative() ? Box3() : a_->surfaceBounds();
-    const Box3 b = b_->isNegative() ? Box3() : b_->surfaceBounds();
-    return this->combinedBounds(a, b, operation_);
-  }
-
-  bool isNegative() const override { return a_->isNegative() && b_->isNegative(); }
+  int leafCount() const override { return leafCount_; }
+  Box3 influenceBounds() const override { return influence_; }
+  Box3 surfaceBounds() const override { return surface_; }
+  bool isNegative() const override { return negative_; }
 
   NodePtr underBlend() const override
   {
@@ -253,6 +247,10 @@ private:
   NodePtr a_;
   NodePtr b_;
   BooleanSource source_;
+  Box3 influence_;
+  Box3 surface_;
+  int leafCount_ = 0;
+  bool negative_ = false;
 };
 
 } // namespace

@@ -129,6 +129,11 @@ public:
     , options_(options)
     , source_(a_, b_, region_)
   {
+    const std::int64_t leaves =
+      std::int64_t(a_->leafCount()) + b_->leafCount() + region_->leafCount();
+    leafCount_ = static_cast<int>(std::min<std::int64_t>(leaves, std::numeric_limits<int>::max()));
+    influence_ = this->findInfluenceBounds();
+    surface_ = this->findSurfaceBounds();
   }
 
   void field(PointBatch points, double* value) const override { source_.field(points, value); }
@@ -191,48 +196,9 @@ public:
       leaf);
   }
 
-  int leafCount() const override
-  {
-    const std::int64_t count =
-      std::int64_t(a_->leafCount()) + b_->leafCount() + region_->leafCount();
-    return static_cast<int>(std::min<std::int64_t>(count, std::numeric_limits<int>::max()));
-  }
-
-  Box3 influenceBounds() const override
-  {
-    Box3 box;
-    for (const NodePtr& operand : { a_, b_ })
-    {
-      // What only carves counts as 0 in the union: it is felt in the region alone.
-      const Box3 reach = operand->influenceBounds();
-      const Box3 felt =
-        operand->isNegative() ? reach.intersection(region_->influenceBounds()) : reach;
-      box = felt.isEmpty() ? box : box.merged(felt);
-    }
-    return box;
-  }
-
-  // The union's surface, and in the region what lies where both reach.
-  Box3 surfaceBounds() const override
-  {
-    Box3 box;
-    for (const NodePtr& operand : { a_, b_ })
-    {
-      if (!operand->isNegative())
-      {
-        box.extend(operand->surfaceBounds());
-      }
-    }
-    if (!a_->isNegative() && !b_->isNegative())
-    {
-      const Box3 both = a_->influenceBounds()
-                          .intersection(b_->influenceBounds())
-                          .intersection(region_->influenceBounds());
-      box = both.isEmpty() ? box : box.merged(both);
-    }
-    return box;
-  }
-
+  int leafCount() const override { return leafCount_; }
+  Box3 influenceBounds() const override { return influence_; }
+  Box3 surfaceBounds() const override { return surface_; }
   bool isNegative() const override { return a_->isNegative() && b_->isNegative(); }
 
   // The children are so already.
@@ -264,11 +230,49 @@ protected:
   }
 
 private:
+  Box3 findInfluenceBounds() const
+  {
+    Box3 box;
+    for (const NodePtr& operand : { a_, b_ })
+    {
+      // What only carves counts as 0 in the union: it is felt in the region alone.
+      const Box3 reach = operand->influenceBounds();
+      const Box3 felt =
+        operand->isNegative() ? reach.intersection(region_->influenceBounds()) : reach;
+      box = felt.isEmpty() ? box : box.merged(felt);
+    }
+    return box;
+  }
+
+  // The union's surface, and in the region what lies where both reach.
+  Box3 findSurfaceBounds() const
+  {
+    Box3 box;
+    for (const NodePtr& operand : { a_, b_ })
+    {
+      if (!operand->isNegative())
+      {
+        box.extend(operand->surfaceBounds());
+      }
+    }
+    if (!a_->isNegative() && !b_->isNegative())
+    {
+      const Box3 both = a_->influenceBounds()
+                          .intersection(b_->influenceBounds())
+                          .intersection(region_->influenceBounds());
+      box = both.isEmpty() ? box : box.merged(both);
+    }
+    return box;
+  }
+
   NodePtr a_;
   NodePtr b_;
   NodePtr region_;
   BlendOptions options_;
   LocalBlendSource source_;
+  Box3 influence_;
+  Box3 surface_;
+  int leafCount_ = 0;
 };
 
 } // namespace

@@ -8,7 +8,6 @@
 #include "core/nodes/FreeForm.h"
 #include "core/nodes/LocalBlend.h"
 #include "core/nodes/MeshNode.h"
-#include "core/nodes/MeshNode.h"
 #include "core/nodes/Primitive.h"
 
 namespace hybridtree
@@ -25,7 +24,6 @@ struct Kind
 // One line per kind of node.
 constexpr Kind kKinds[] = {
   { "primitive", primitiveFromParameters },
-  { "mesh", meshFromParameters },
   { "mesh", meshFromParameters },
   { "blend", blendFromParameters },
   { "localBlend", localBlendFromParameters },

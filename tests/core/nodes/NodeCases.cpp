@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tests/core/nodes/NodeCases.h"
 
+#include "core/nodes/Barr.h"
 #include "core/nodes/Blend.h"
 #include "core/nodes/Boolean.h"
+#include "core/nodes/FreeForm.h"
 #include "core/nodes/LocalBlend.h"
 #include "core/nodes/MeshNode.h"
 #include "core/nodes/Primitive.h"
@@ -145,6 +147,28 @@ void addBlends(std::vector<NodeCase>& cases)
     { "LocalBlendInNegativeRegion", makeLocalBlend(capsule(), ring(), hole(Vec3(0.6, 0, 0))) });
 }
 
+void addWarps(std::vector<NodeCase>& cases)
+{
+  const BarrFrame frame{ Vec3(0.1, 0.0, -0.1), Vec3(1.0, 0.2, 0.1), Vec3(0.0, 1.0, 0.3), -0.4,
+    0.5 };
+  const NodePtr sum = makeBlend({ block(), ball(Vec3(0.6, 0.1, 0.0), 0.3, 0.6) });
+  cases.push_back({ "TwistedBox", makeTwist(block(), frame, 1.2) });
+  cases.push_back({ "TaperedBlend", makeTaper(sum, frame, 0.6) });
+  cases.push_back({ "BentBlend", makeBend(sum, frame, 0.5) });
+  cases.push_back({ "BentTwist", makeBend(makeTwist(capsule(), frame, 0.8), frame, -0.4) });
+
+  FreeFormLattice lattice;
+  lattice.dimensions = { 4, 4, 4 };
+  lattice.origin = Vec3(-1.5, -1.5, -1.5);
+  lattice.axes = 3.0 * Mat3::Identity();
+  lattice.displacements.assign(64, Vec3::Zero());
+  lattice.displacements[21] = Vec3(0.3, 0.1, -0.2);
+  lattice.displacements[42] = Vec3(-0.1, 0.4, 0.2);
+  cases.push_back({ "FreeFormByInverse", makeFreeForm(sum, lattice, FieldFrom::InverseMap) });
+  cases.push_back(
+    { "FreeFormByMesh", makeFreeForm(block(), lattice, FieldFrom::DeformedMesh, 0.1) });
+}
+
 } // namespace
 
 std::vector<NodeCase> nodeCases()
@@ -162,6 +186,7 @@ std::vector<NodeCase> nodeCases()
   addMeshes(cases);
   addBlends(cases);
   addBooleans(cases);
+  addWarps(cases);
   return cases;
 }
 
