@@ -13,6 +13,7 @@
 #include "core/skeletons/Point.h"
 #include "core/skeletons/Segment.h"
 
+#include "tests/support/Random.h"
 #include "tests/support/TestMeshes.h"
 
 #include <cmath>
@@ -147,26 +148,76 @@ void addBlends(std::vector<NodeCase>& cases)
     { "LocalBlendInNegativeRegion", makeLocalBlend(capsule(), ring(), hole(Vec3(0.6, 0, 0))) });
 }
 
-void addWarps(std::vector<NodeCase>& cases)
+BarrFrame barrFrame()
 {
-  const BarrFrame frame{ Vec3(0.1, 0.0, -0.1), Vec3(1.0, 0.2, 0.1), Vec3(0.0, 1.0, 0.3), -0.4,
-    0.5 };
-  const NodePtr sum = makeBlend({ block(), ball(Vec3(0.6, 0.1, 0.0), 0.3, 0.6) });
-  cases.push_back({ "TwistedBox", makeTwist(block(), frame, 1.2) });
-  cases.push_back({ "TaperedBlend", makeTaper(sum, frame, 0.6) });
-  cases.push_back({ "BentBlend", makeBend(sum, frame, 0.5) });
-  cases.push_back({ "BentTwist", makeBend(makeTwist(capsule(), frame, 0.8), frame, -0.4) });
+  BarrFrame frame;
+  frame.origin = Vec3(0.1, -0.2, 0.0);
+  frame.axis = Vec3(2.0, 0.4, 0.3);
+  frame.normal = Vec3(0.1, 0.2, 1.0);
+  frame.begin = -0.4;
+  frame.end = 0.5;
+  return frame;
+}
 
-  FreeFormLattice lattice;
-  lattice.dimensions = { 4, 4, 4 };
-  lattice.origin = Vec3(-1.5, -1.5, -1.5);
-  lattice.axes = 3.0 * Mat3::Identity();
-  lattice.displacements.assign(64, Vec3::Zero());
-  lattice.displacements[21] = Vec3(0.3, 0.1, -0.2);
-  lattice.displacements[42] = Vec3(-0.1, 0.4, 0.2);
-  cases.push_back({ "FreeFormByInverse", makeFreeForm(sum, lattice, FieldFrom::InverseMap) });
+void addBarr(std::vector<NodeCase>& cases)
+{
+  const NodePtr sum = makeBlend({ capsule(), ball(Vec3(0.1, 0.1, 0), 0.3, 0.5) });
+  // Split vertices are brought onto the surface; those of the child are there to 1e-3 already.
+  const double tolerance = 5e-3;
+  cases.push_back({ "Twist", makeTwist(block(), barrFrame(), 1.5), tolerance });
+  cases.push_back({ "TwistOfBlend", makeTwist(sum, barrFrame(), -2.0), tolerance });
+  cases.push_back({ "Taper", makeTaper(sum, barrFrame(), 0.4), tolerance });
+  cases.push_back({ "Bend", makeBend(capsule(), barrFrame(), 0.9), tolerance });
+  cases.push_back({ "ShearedBend", makeBend(sum, barrFrame(), -0.8)->affine(shear()), tolerance });
+  cases.push_back({ "TwistOfBend",
+    makeTwist(makeBend(capsule(), barrFrame(), 0.7), barrFrame(), 1.0), tolerance });
+  cases.push_back({ "TwistedMesh",
+    makeTwist(meshLeaf(box(Vec3(-0.5, -0.4, -0.3), Vec3(0.5, 0.4, 0.3))), barrFrame(), 1.0),
+    tolerance });
+  cases.push_back({ "TaperedHole", makeTaper(hole(Vec3(0.1, 0.1, 0.0)), barrFrame(), 2.0) });
+}
+
+// A lattice around the shapes here, its inner control points displaced by up to `share` of a cell.
+FreeFormLattice lattice(double share)
+{
+  FreeFormLattice result;
+  result.dimensions = { 4, 5, 4 };
+  result.origin = Vec3(-1.2, -1.3, -1.1);
+  result.axes << 2.4, 0.1, 0.0, 0.0, 2.6, 0.0, 0.1, 0.0, 2.3;
+  Random random(17);
+  for (int k = 0; k < 4; ++k)
+  {
+    for (int j = 0; j < 5; ++j)
+    {
+      for (int i = 0; i < 4; ++i)
+      {
+        const bool inner = i % 3 != 0 && j % 4 != 0 && k % 3 != 0;
+        result.displacements.push_back(
+          inner ? Vec3(0.7 * share * random.direction()) : Vec3(Vec3::Zero()));
+      }
+    }
+  }
+  return result;
+}
+
+void addFreeForms(std::vector<NodeCase>& cases)
+{
+  const NodePtr sum = makeBlend({ capsule(), ring() });
+  const double tolerance = 5e-3;
+  const double edge = 0.05;
   cases.push_back(
-    { "FreeFormByMesh", makeFreeForm(block(), lattice, FieldFrom::DeformedMesh, 0.1) });
+    { "FreeFormMesh", makeFreeForm(capsule(), lattice(0.4), FieldFrom::DeformedMesh, edge) });
+  cases.push_back({ "FreeFormMeshOfBlend",
+    makeFreeForm(sum, lattice(0.4), FieldFrom::DeformedMesh, 2.0 * edge) });
+  cases.push_back({ "ShearedFreeFormMesh",
+    makeFreeForm(meshLeaf(bumpySphere(0.6, 2)), lattice(0.4), FieldFrom::DeformedMesh, edge)
+      ->affine(shear()) });
+  cases.push_back({ "FreeFormHole",
+    makeFreeForm(hole(Vec3(0.1, 0.2, 0.3)), lattice(0.4), FieldFrom::DeformedMesh, edge) });
+  cases.push_back(
+    { "FreeFormInverse", makeFreeForm(sum, lattice(0.4), FieldFrom::InverseMap), tolerance });
+  cases.push_back({ "ShearedFreeFormInverse",
+    makeFreeForm(block(), lattice(0.4), FieldFrom::InverseMap)->affine(shear()), tolerance });
 }
 
 } // namespace
@@ -186,7 +237,8 @@ std::vector<NodeCase> nodeCases()
   addMeshes(cases);
   addBlends(cases);
   addBooleans(cases);
-  addWarps(cases);
+  addBarr(cases);
+  addFreeForms(cases);
   return cases;
 }
 
