@@ -18,7 +18,8 @@ struct FreeFormSetting
   /// Everything of the kind "freeForm" but "map".
   Parameters parameters() const;
   /// On folds and displaced faces.
-  std::vector<std::string> warnings() const;
+  /// \param reach bounds of what the lattice should take along.
+  std::vector<std::string> warnings(const Box3& reach) const;
 };
 
 /// The deformed mesh of a child, made at the first call that needs it and shared by all images of
@@ -72,12 +73,16 @@ public:
   Box3 influenceBounds() const override;
   Box3 surfaceBounds() const override;
   bool isNegative() const override { return shape_->surfaceField().maximumField < 0.0; }
+  bool isFaceted() const override { return true; }
   std::optional<SurfaceField> surfaceField() const override;
 
   const char* kind() const override { return "freeForm"; }
   Parameters parameters() const override;
   std::vector<NodePtr> children() const override { return { shape_->child() }; }
-  std::vector<std::string> warnings() const override { return shape_->setting().warnings(); }
+  std::vector<std::string> warnings() const override
+  {
+    return shape_->setting().warnings(shape_->child()->surfaceBounds());
+  }
 
 protected:
   /// The deformed mesh, at any length asked.

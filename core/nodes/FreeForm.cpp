@@ -30,7 +30,10 @@ public:
 
   const char* kind() const override { return "freeForm"; }
   Parameters parameters() const override { return setting_.parameters(); }
-  std::vector<std::string> warnings() const override { return setting_.warnings(); }
+  std::vector<std::string> warnings() const override
+  {
+    return setting_.warnings(this->children().front()->influenceBounds());
+  }
 
 protected:
   NodePtr makeAffine(const Affine3& map) const override
@@ -200,11 +203,24 @@ Parameters FreeFormSetting::parameters() const
   return parameters;
 }
 
-std::vector<std::string> FreeFormSetting::warnings() const
+namespace
+{
+
+/// Whether the lattice box, the unit cube in `frame`, holds all of a box.
+bool encloses(const Affine3& frame, const Box3& box)
+{
+  const Box3 inside = transformed(box, frame.inverse());
+  return inside.isEmpty() ||
+    (inside.min().minCoeff() >= -1e-9 && inside.max().maxCoeff() <= 1.0 + 1e-9);
+}
+
+} // namespace
+
+std::vector<std::string> FreeFormSetting::warnings(const Box3& reach) const
 {
   const BernsteinDeformation& deformation = *warp->deformation();
   std::vector<std::string> texts;
-  if (!deformation.hasRestingFaces())
+  if (!deformation.hasRestingFaces() && !encloses(warp->frame(), reach))
   {
     texts.push_back("Control points on the faces of the lattice box are displaced, so the "
                     "deformation is not continuous there: a shape that reaches through these faces "

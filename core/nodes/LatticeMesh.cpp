@@ -3,6 +3,7 @@
 
 #include "core/base/Parallel.h"
 #include "core/base/Scratch.h"
+#include "core/mesh/SmoothNormals.h"
 #include "core/polygonize/Polygonize.h"
 
 namespace hybridtree
@@ -49,6 +50,10 @@ TriangleMesh latticeMesh(const Node& node, double edgeLength, const Progress& pr
   options.cellSize = edgeLength;
   TriangleMesh mesh = polygonize(node, bounds, options, ProgressPart(progress, 0.0, 0.9));
   findSourceLeaves(node, mesh, progress);
+  if (node.isFaceted())
+  {
+    smoothNormals(mesh);
+  }
   return mesh;
 }
 

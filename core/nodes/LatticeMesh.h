@@ -9,6 +9,9 @@ namespace hybridtree
 /// Mesh of any node from its field alone: polygonize() with cells of side `edgeLength` over the
 /// node's surface bounds, and the leaf of each triangle from Node::sourceLeaf() at its centroid.
 ///
+/// Normals are those of the gradient; in a faceted tree (Node::isFaceted()) they are smoothed over
+/// the facets of its mesh leaves, creases kept: a mesh leaf is shaded like the mesh it is.
+///
 /// The lengths of the edges vary from 0 to sqrt(3) edgeLength, 0.95 edgeLength on average.
 /// Empty for a negative node and where the field stays below T.
 /// \throws InvalidParameter, TooLarge, Cancelled as polygonize().

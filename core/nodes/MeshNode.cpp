@@ -65,6 +65,7 @@ public:
     return SurfaceField{ field_.maximumField(), scale * field_.influenceRadius(),
       field_.exponent() };
   }
+  bool isFaceted() const override { return true; }
   std::vector<std::string> warnings() const override { return field_.distance().warnings(); }
 
 protected:

@@ -101,6 +101,13 @@ NodePtr Node::affine(const Affine3& map) const
   return this->makeAffine(map);
 }
 
+bool Node::isFaceted() const
+{
+  const std::vector<NodePtr> children = this->children();
+  return std::any_of(
+    children.begin(), children.end(), [](const NodePtr& child) { return child->isFaceted(); });
+}
+
 NodePtr Node::underBlend() const
 {
   std::vector<NodePtr> children = this->children();

@@ -90,6 +90,10 @@ public:
   /// for every other kind.
   virtual MeshPtr leafMesh() const { return nullptr; }
 
+  /// True when a triangle mesh shapes the field somewhere, so that its gradient jumps from facet to
+  /// facet.
+  virtual bool isFaceted() const;
+
   /// For single leaves with a level of +-T, in the mean over directions where a map has stretched
   /// them: what keeps their field when only their mesh is left ([HT] 4.5.2). Empty for every other
   /// kind.

@@ -53,14 +53,14 @@ def picture(view, shown, path, colour=CLAY, extra=()):
     HideAll(view)
     display = Show(shown, view)
     display.Representation = "Surface"
-    ColorBy(display, None)
+    display.ColorArrayName = ["POINTS", ""]
     display.DiffuseColor = colour
     display.AmbientColor = colour
     display.Specular = 0.25
     display.SpecularPower = 30
     for proxy, settings in extra:
         other = Show(proxy, view)
-        ColorBy(other, None)
+        other.ColorArrayName = ["POINTS", ""]
         for key, value in settings.items():
             setattr(other, key, value)
     Render(view)

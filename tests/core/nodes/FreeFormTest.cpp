@@ -91,7 +91,7 @@ TEST(FreeForm, AffineDisplacementsAreTheAffineImage)
   }
   // The child's field ends within the lattice, so all of it is carried along.
   const NodePtr exact = makeFreeForm(child, grid, FieldFrom::InverseMap);
-  EXPECT_EQ(exact->warnings().size(), 1u); // displaced faces
+  EXPECT_TRUE(exact->warnings().empty());
   const NodePtr image = child->affine(map);
   const PointList points = test::randomPoints(random, image->influenceBounds(), 1000);
   const std::vector<double> expected = fieldAt(*image, points);
@@ -191,6 +191,22 @@ TEST(FreeForm, FoldsWarnAndTheInverseMapFallsBackOnTheMesh)
   EXPECT_NE(node->warnings()[0].find("deformed mesh instead"), std::string::npos);
   EXPECT_FALSE(node->mesh()->empty());
   EXPECT_EQ(node->parameters().getString("fieldFrom"), "inverseMap");
+}
+
+TEST(FreeForm, WarnsOnlyWhereAShapeReachesThroughDisplacedFaces)
+{
+  const NodePtr child = makePrimitive(
+    std::make_shared<PointSkeleton>(Vec3::Zero()), Potential::bySurfaceRadius(0.5, 1.0, 2));
+  for (const double half : { 0.6, 0.4 })
+  {
+    FreeFormLattice grid;
+    grid.dimensions = { 2, 2, 2 };
+    grid.origin = Vec3::Constant(-half);
+    grid.axes = 2.0 * half * Mat3::Identity();
+    grid.displacements.assign(8, Vec3(0.0, 0.0, 0.1));
+    const NodePtr moved = makeFreeForm(child, grid, FieldFrom::DeformedMesh, 0.1);
+    EXPECT_EQ(moved->warnings().size(), half > 0.5 ? 0u : 1u) << "half " << half;
+  }
 }
 
 TEST(FreeForm, ControlLatticeFollowsTheNode)
