@@ -15,7 +15,8 @@ namespace
 
 // All in cells, along the edge.
 constexpr double kEndDistance = 1e-4;  // of a vertex from the ends of its edge
-constexpr double kLastStep = 1e-3;     // a Newton step up to this is the last one
+constexpr double kLastStep = 1e-3;     // a Newton step up to this is the last one,
+constexpr double kChordMiss = 1e-4;    // if the chord crosses as near to where it leads
 constexpr double kSmallBracket = 2e-6; // nothing left to find
 constexpr double kFirstEndDistance = 0.01;
 
@@ -67,6 +68,16 @@ struct Search
   bool brackets(double at) const
   {
     return std::min(t1, t2) - kSmallBracket <= at && at <= std::max(t1, t2) + kSmallBracket;
+  }
+
+  /// From t to where the chord to the bracket's end on the other side crosses. Where the field is
+  /// convex or concave, as at a crease, the crossing is between this and Newton's step.
+  double chordStep(double f) const
+  {
+    const bool beside1 = isInside(f) == this->insideAt1();
+    const double end = beside1 ? t2 : t1;
+    const double rise = std::abs(beside1 ? f2 : f1);
+    return (end - t) * std::abs(f) / (std::abs(f) + rise);
   }
 
   void next()
@@ -181,7 +192,8 @@ private:
   {
     Search& search = searches_[k];
     const double step = -f / (gradient[edges_[k].axis] * lattice_.cellSize);
-    if (std::abs(step) <= kLastStep && search.brackets(search.t + step))
+    if (std::abs(step) <= kLastStep && search.brackets(search.t + step) &&
+      std::abs(step - search.chordStep(f)) <= kChordMiss)
     {
       this->place(k, search.t + step, gradient);
       return true;

@@ -328,5 +328,39 @@ TEST(Polygonize, StopsWhenAsked)
   EXPECT_THROW(polygonize(field, cube(1.5), options, Impatient()), Cancelled);
 }
 
+// A Newton step from one side of a crease misses the surface on the other.
+TEST(Polygonize, VerticesAreOnSurfacesBesideACrease)
+{
+  const double cell = 0.1;
+  const Vec3 across = Vec3(1.0, -2.0, 0.5).normalized();
+  for (const double share : { -1e-3, -5e-4, -2e-4, 2e-4, 5e-4, 1e-3 })
+  {
+    for (const double ratio : { 10.0, 0.1 })
+    {
+      // Falls by 1 up to the crease and by `ratio` from there on; the crease is a share of a cell
+      // off the surface.
+      const double crease = share * cell;
+      const auto depth = [=](double d) { return d < crease ? d - crease : ratio * (d - crease); };
+      const FunctionField wedge(
+        [=](const Vec3& p) { return kThreshold - depth(p.dot(across)) + depth(0.0); }, 11.0);
+      PolygonizeOptions options;
+      options.cellSize = cell;
+      const TriangleMesh mesh =
+        polygonize(wedge, Box3(Vec3(-1.0, -1.0, -1.0), Vec3(1.0, 1.0, 1.0)), options);
+      int vertices = 0;
+      for (const Vec3& point : mesh.points)
+      {
+        if (point.cwiseAbs().maxCoeff() < 0.99) // not where the box closes it
+        {
+          // They keep 1e-4 cells off the ends of their edge, too.
+          ASSERT_LE(std::abs(point.dot(across)), 2e-4 * cell) << "share " << share;
+          ++vertices;
+        }
+      }
+      EXPECT_GT(vertices, 300);
+    }
+  }
+}
+
 } // namespace
 } // namespace hybridtree

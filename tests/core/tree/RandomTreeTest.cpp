@@ -7,6 +7,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <map>
 
 namespace hybridtree::test
@@ -59,6 +62,93 @@ bool isNearSurface(const Node& node, const Vec3& point, const Vec3& gradient, do
   return *low <= kThreshold && *high >= kThreshold;
 }
 
+void expectMeshOnTheSurface(const Node& tree)
+{
+  const Box3 bounds = tree.surfaceBounds();
+  if (bounds.isEmpty())
+  {
+    EXPECT_TRUE(tree.mesh(0.1)->empty());
+    return;
+  }
+  const double edge = bounds.sizes().maxCoeff() / 20.0;
+  const MeshPtr mesh = tree.mesh(edge);
+  const MeshReport report = checkMesh(*mesh);
+  EXPECT_TRUE(report.closedManifold()) << tree.kind() << ": " << report.describe();
+  EXPECT_EQ(mesh->normals.size(), mesh->points.size());
+  EXPECT_EQ(mesh->sourceLeaf.size(), mesh->triangles.size());
+  if (!isLatticeNode(tree) || mesh->empty())
+  {
+    return;
+  }
+  const PointList points(mesh->points);
+  VectorList gradient(points.size());
+  std::vector<double> value(points.size());
+  tree.fieldAndGradient(points, value.data(), gradient);
+  int off = 0;
+  for (std::size_t k = 0; k < points.size(); ++k)
+  {
+    const double allowed = 1e-3 * edge;
+    if (std::abs(value[k] - kThreshold) > allowed * gradient[k].norm() &&
+      !isNearSurface(tree, points[k], gradient[k], allowed))
+    {
+      ++off;
+    }
+  }
+  EXPECT_EQ(off, 0) << "of " << points.size() << " vertices";
+}
+
+void expectQueriesThatAgree(const Node& tree, std::uint64_t seed)
+{
+  const Box3 reach = tree.influenceBounds();
+  if (reach.isEmpty())
+  {
+    return;
+  }
+  Random random(seed);
+  const PointList points = randomPoints(random, reach, 200);
+  const std::vector<double> value = fieldAt(tree, points);
+  std::vector<std::int8_t> side(points.size());
+  tree.membership(points, side.data());
+  for (std::size_t k = 0; k < points.size(); ++k)
+  {
+    if (std::abs(value[k] - kThreshold) > 1e-7)
+    {
+      EXPECT_EQ(int(side[k]), value[k] > kThreshold ? 1 : -1) << points[k].transpose();
+    }
+  }
+  const Interval whole = tree.range(reach);
+  EXPECT_LE(whole.min, *std::min_element(value.begin(), value.end()) + 1e-12);
+  EXPECT_GE(whole.max, *std::max_element(value.begin(), value.end()) - 1e-12);
+
+  Box3 part(random.inBox(reach));
+  part.extend(random.inBox(reach));
+  const PointList inside = randomPoints(random, part, 60);
+  const std::vector<double> expected = fieldAt(tree, inside);
+  const FieldSourcePtr restricted = tree.restrictedTo(part);
+  const std::vector<double> partly =
+    restricted ? fieldAt(*restricted, inside) : std::vector<double>(inside.size(), 0.0);
+  const Interval range = tree.range(part);
+  for (std::size_t k = 0; k < inside.size(); ++k)
+  {
+    EXPECT_NEAR(partly[k], expected[k], 1e-9) << inside[k].transpose();
+    EXPECT_GE(expected[k], range.min - 1e-12) << inside[k].transpose();
+    EXPECT_LE(expected[k], range.max + 1e-12) << inside[k].transpose();
+  }
+  EXPECT_EQ(fieldAt(*reread(tree), points), value);
+
+  const Affine3 map = randomMap(random);
+  PointList mapped;
+  for (std::size_t k = 0; k < points.size(); ++k)
+  {
+    mapped.add(map * points[k]);
+  }
+  const std::vector<double> image = fieldAt(*tree.affine(map), mapped);
+  for (std::size_t k = 0; k < points.size(); ++k)
+  {
+    EXPECT_NEAR(image[k], value[k], 1e-6) << points[k].transpose();
+  }
+}
+
 class RandomTree : public testing::TestWithParam<std::uint64_t>
 {
 };
@@ -68,38 +158,7 @@ TEST_P(RandomTree, MeshIsAClosedManifoldOnTheSurface)
   for (std::uint64_t seed = this->GetParam(); seed < this->GetParam() + kTreesPerTest; ++seed)
   {
     SCOPED_TRACE("seed " + std::to_string(seed));
-    const NodePtr tree = randomTree(seed, kDepth);
-    const Box3 bounds = tree->surfaceBounds();
-    if (bounds.isEmpty())
-    {
-      EXPECT_TRUE(tree->mesh(0.1)->empty());
-      continue;
-    }
-    const double edge = bounds.sizes().maxCoeff() / 20.0;
-    const MeshPtr mesh = tree->mesh(edge);
-    const MeshReport report = checkMesh(*mesh);
-    EXPECT_TRUE(report.closedManifold()) << tree->kind() << ": " << report.describe();
-    EXPECT_EQ(mesh->normals.size(), mesh->points.size());
-    EXPECT_EQ(mesh->sourceLeaf.size(), mesh->triangles.size());
-    if (!isLatticeNode(*tree) || mesh->empty())
-    {
-      continue;
-    }
-    const PointList points(mesh->points);
-    VectorList gradient(points.size());
-    std::vector<double> value(points.size());
-    tree->fieldAndGradient(points, value.data(), gradient);
-    int off = 0;
-    for (std::size_t k = 0; k < points.size(); ++k)
-    {
-      const double allowed = 1e-3 * edge;
-      if (std::abs(value[k] - kThreshold) > allowed * gradient[k].norm() &&
-        !isNearSurface(*tree, points[k], gradient[k], allowed))
-      {
-        ++off;
-      }
-    }
-    EXPECT_EQ(off, 0) << "of " << points.size() << " vertices";
+    expectMeshOnTheSurface(*randomTree(seed, kDepth));
   }
 }
 
@@ -108,56 +167,35 @@ TEST_P(RandomTree, QueriesAgree)
   for (std::uint64_t seed = this->GetParam(); seed < this->GetParam() + kTreesPerTest; ++seed)
   {
     SCOPED_TRACE("seed " + std::to_string(seed));
-    const NodePtr tree = randomTree(seed, kDepth);
-    const Box3 reach = tree->influenceBounds();
-    if (reach.isEmpty())
-    {
-      continue;
-    }
-    Random random(seed);
-    const PointList points = randomPoints(random, reach, 200);
-    const std::vector<double> value = fieldAt(*tree, points);
-    std::vector<std::int8_t> side(points.size());
-    tree->membership(points, side.data());
-    for (std::size_t k = 0; k < points.size(); ++k)
-    {
-      if (std::abs(value[k] - kThreshold) > 1e-7)
-      {
-        EXPECT_EQ(int(side[k]), value[k] > kThreshold ? 1 : -1) << points[k].transpose();
-      }
-    }
-    const Interval whole = tree->range(reach);
-    EXPECT_LE(whole.min, *std::min_element(value.begin(), value.end()) + 1e-12);
-    EXPECT_GE(whole.max, *std::max_element(value.begin(), value.end()) - 1e-12);
-
-    Box3 part(random.inBox(reach));
-    part.extend(random.inBox(reach));
-    const PointList inside = randomPoints(random, part, 60);
-    const std::vector<double> expected = fieldAt(*tree, inside);
-    const FieldSourcePtr restricted = tree->restrictedTo(part);
-    const std::vector<double> partly =
-      restricted ? fieldAt(*restricted, inside) : std::vector<double>(inside.size(), 0.0);
-    const Interval range = tree->range(part);
-    for (std::size_t k = 0; k < inside.size(); ++k)
-    {
-      EXPECT_NEAR(partly[k], expected[k], 1e-9) << inside[k].transpose();
-      EXPECT_GE(expected[k], range.min - 1e-12) << inside[k].transpose();
-      EXPECT_LE(expected[k], range.max + 1e-12) << inside[k].transpose();
-    }
-    EXPECT_EQ(fieldAt(*reread(*tree), points), value);
-
-    const Affine3 map = randomMap(random);
-    PointList mapped;
-    for (std::size_t k = 0; k < points.size(); ++k)
-    {
-      mapped.add(map * points[k]);
-    }
-    const std::vector<double> image = fieldAt(*tree->affine(map), mapped);
-    for (std::size_t k = 0; k < points.size(); ++k)
-    {
-      EXPECT_NEAR(image[k], value[k], 1e-6) << points[k].transpose();
-    }
+    expectQueriesThatAgree(*randomTree(seed, kDepth), seed);
   }
+}
+
+// Seeds that once failed: vertices beside a crease.
+TEST(Corpus, SeedsThatOnceFailed)
+{
+  for (const std::uint64_t seed : { 410, 753, 1898, 1907 })
+  {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    expectMeshOnTheSurface(*randomTree(seed, kDepth));
+  }
+}
+
+// Trees that once failed, kept as text. They have no mesh leaves.
+TEST(Corpus, TreesThatOnceFailed)
+{
+  int count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(HYBRIDTREE_CORPUS))
+  {
+    SCOPED_TRACE(entry.path().filename().string());
+    std::ifstream file(entry.path());
+    const std::string text{ std::istreambuf_iterator<char>(file), {} };
+    const NodePtr tree = fromText(text);
+    expectMeshOnTheSurface(*tree);
+    expectQueriesThatAgree(*tree, 0);
+    ++count;
+  }
+  EXPECT_GT(count, 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomTree, testing::Range(std::uint64_t(0), kTrees, kTreesPerTest),
