@@ -5,7 +5,7 @@
 
 1. reconstruct   5,210 scanned points -> closed mesh (genus 1: the tail is a handle)
 2. blend         two circle handles, blended only where two box regions allow it
-3. cut           a triangle mesh (an elephant) carved out of the kitten's side by a Boolean
+3. cut           a triangle mesh (a twisted ring) carved out of the cheek by a Boolean
 4. deform        a 3 x 4 x 3 free-form lattice leans the whole jug
 
 Leaves a picture of every stage, jug.vtp (opens as a live tree), jug.stl and jug.pvsm.
@@ -41,10 +41,10 @@ jug = HybridTreeLocalBlend(registrationName="jug", A=body, B=handles, Region=reg
 picture(view, jug, os.path.join(folder, "2-handles.png"))
 check_closed(jug, "2 kitten with handles")
 
-# 3. A Boolean with a triangle mesh: an elephant, shrunk and turned, half sunk into the side.
-elephant = XMLPolyDataReader(registrationName="elephant", FileName=[convert("meshes/elephant.off", folder)])
+# 3. A Boolean with a triangle mesh: a twisted ring, shrunk, turned and pressed into the cheek.
+ring = XMLPolyDataReader(registrationName="ring", FileName=[convert("meshes/knot2.off", folder)])
 placed = HybridTreeAffineTransform(
-    registrationName="placed elephant", Input=elephant, Scale=[0.3, 0.3, 0.3], Rotate=[0, 42, 0], Translate=[0.12, 0.2, 0.1]
+    registrationName="placed ring", Input=ring, Scale=[0.35, 0.35, 0.35], Rotate=[0, 42, 0], Translate=[0.15, 0.2, 0.13]
 )
 carved = HybridTreeBoolean(registrationName="carved", A=jug, B=placed, Operation="Difference A - B", EdgeLength=0.008)
 picture(view, carved, os.path.join(folder, "3-carved.png"))

@@ -9,10 +9,16 @@ CLAY = [0.80, 0.72, 0.62]
 GLAZE = [0.36, 0.53, 0.66]
 
 
+BUILT = os.path.join(
+    os.path.dirname(os.path.abspath(__file__)), "../../build/lib/paraview-5.11/plugins/HybridTree/HybridTree.so"
+)
+
+
 def load_plugin():
-    """Load HybridTree.so: from PV_PLUGIN_PATH, an installed place, or HYBRIDTREE_PLUGIN's path."""
-    path = os.environ.get("HYBRIDTREE_PLUGIN", "")
-    if path:
+    """Load HybridTree.so: the one HYBRIDTREE_PLUGIN names, else the project's own build, else the
+    one ParaView finds (installed, or by PV_PLUGIN_PATH). Returns the names it adds."""
+    path = os.environ.get("HYBRIDTREE_PLUGIN", BUILT)
+    if os.path.exists(path):
         LoadPlugin(path, remote=False, ns=globals())
     else:
         LoadDistributedPlugin("HybridTree", remote=False, ns=globals())
