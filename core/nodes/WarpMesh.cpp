@@ -5,6 +5,7 @@
 #include "core/base/Parallel.h"
 #include "core/base/Scratch.h"
 #include "core/mesh/Remesh.h"
+#include "core/mesh/SmoothNormals.h"
 
 #include <algorithm>
 #include <array>
@@ -528,6 +529,13 @@ TriangleMesh warpedMesh(const TriangleMesh& mesh, const SpaceWarp& warp, double 
   if (result.normals.size() != result.points.size())
   {
     result.normals = pointNormals(result);
+  }
+  else if (node.isFaceted() && result.points.size() != mesh.points.size())
+  {
+    // New points have the normal of one facet, beside old ones with that of the mesh.
+    SmoothNormalsOptions options;
+    options.rounds = 1;
+    smoothNormals(result, options);
   }
   return result;
 }

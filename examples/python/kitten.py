@@ -44,9 +44,9 @@ check_closed(jug, "2 kitten with handles")
 # 3. A Boolean with a triangle mesh: a twisted ring, shrunk, turned and pressed into the cheek.
 ring = XMLPolyDataReader(registrationName="ring", FileName=[convert("meshes/knot2.off", folder)])
 placed = HybridTreeAffineTransform(
-    registrationName="placed ring", Input=ring, Scale=[0.35, 0.35, 0.35], Rotate=[0, 42, 0], Translate=[0.15, 0.2, 0.13]
+    registrationName="placed ring", Input=ring, Scale=[0.35, 0.35, 0.35], Rotate=[0, 42, 0], Translate=[0.14, 0.2, 0.125]
 )
-carved = HybridTreeBoolean(registrationName="carved", A=jug, B=placed, Operation="Difference A - B", EdgeLength=0.008)
+carved = HybridTreeBoolean(registrationName="carved", A=jug, B=placed, Operation="Difference A - B", EdgeLength=0.006)
 picture(view, carved, os.path.join(folder, "3-carved.png"))
 check_closed(carved, "3 carved kitten")
 
@@ -57,7 +57,7 @@ for i in range(3):
         displacements += [i, 3, k, 0.18 + 0.06 * (i - 1), 0.06, 0.08 * (k - 1)]
         displacements += [i, 2, k, 0.05, 0.0, 0.0]
 leaning = HybridTreeFreeFormDeformation(
-    registrationName="leaning", Input=carved, LatticeDimensions=[3, 4, 3], Displacements=displacements, EdgeLength=0.008
+    registrationName="leaning", Input=carved, LatticeDimensions=[3, 4, 3], Displacements=displacements, EdgeLength=0.006
 )
 lattice = OutputPort(leaning, 1)
 picture(
