@@ -203,6 +203,7 @@ struct Entry
 {
   float squared;
   std::uint32_t ref;
+  std::uint32_t slot; // its box: 8 * parent + place there; kNone for a start
 };
 
 // Entries not nearer than the limit never get in; the nearest of one node comes out first.
@@ -251,20 +252,21 @@ protected:
   {
     if (!query_.roots)
     {
-      stack.push({ 0.0f, 0 });
+      stack.push({ 0.0f, 0, MeshBvh::kNone });
       return;
     }
     // They come sorted, nearest first; the walk wants the nearest on top.
     for (std::size_t k = query_.roots->size(); k-- > 0;)
     {
-      stack.push({ 0.0f, (*query_.roots)[k] });
+      stack.push({ 0.0f, (*query_.roots)[k], MeshBvh::kNone });
     }
   }
 
   // Pushes the children nearer than the limit to the box lower .. upper, nearest last.
-  HWY_INLINE void expand(const MeshBvh::Node& node, const float* lower, const float* upper,
-    float limit, Stack& stack) const
+  HWY_INLINE void expand(
+    std::uint32_t index, const float* lower, const float* upper, float limit, Stack& stack) const
   {
+    const MeshBvh::Node& node = nodes_[index];
     const Eight d;
     alignas(32) float squared[kWidth];
     for (std::size_t k = 0; k < kWidth; k += hn::Lanes(d))
@@ -284,7 +286,7 @@ protected:
     {
       if (squared[k] <= limit && node.child[k] != MeshBvh::kNone)
       {
-        stack.push({ squared[k], node.child[k] });
+        stack.push({ squared[k], node.child[k], std::uint32_t(index * kWidth + k) });
       }
     }
     stack.sortFrom(first);
@@ -352,7 +354,7 @@ public:
       }
       else
       {
-        this->expand(nodes_[entry.ref], point, point, limit_, stack);
+        this->expand(entry.ref, point, point, limit_, stack);
       }
     }
     squared = bestTriangle_ < 0 ? std::numeric_limits<double>::infinity() : best_;
@@ -443,7 +445,7 @@ public:
     while (!stack.empty())
     {
       const Entry entry = stack.pop();
-      if (entry.squared > limit_)
+      if (entry.squared > limit_ || !this->anyNear(entry.slot))
       {
         continue;
       }
@@ -453,7 +455,7 @@ public:
       }
       else
       {
-        this->expand(nodes_[entry.ref], lower_, upper_, limit_, stack);
+        this->expand(entry.ref, lower_, upper_, limit_, stack);
       }
     }
     warm = triangle_[kPacket / 2] >= 0 ? this->triangle(kPacket / 2) : warm;
@@ -523,6 +525,35 @@ private:
         this->measure(leaf.triangle[k]);
       }
     }
+  }
+
+  // The box that all points have in common is much nearer to a node than any point may be.
+  HWY_INLINE bool anyNear(std::uint32_t slot) const
+  {
+    if (slot == MeshBvh::kNone)
+    {
+      return true;
+    }
+    const Floats d;
+    const MeshBvh::Node& node = nodes_[slot / kWidth];
+    const std::size_t k = slot % kWidth;
+    for (std::size_t lane = 0; lane < kPacket; lane += hn::Lanes(d))
+    {
+      auto sum = hn::Zero(d);
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        const auto p = hn::Load(d, local_[axis] + lane);
+        const auto below = hn::Sub(hn::Set(d, node.lower[axis][k]), p);
+        const auto above = hn::Sub(p, hn::Set(d, node.upper[axis][k]));
+        const auto gap = hn::Max(hn::Max(below, above), hn::Zero(d));
+        sum = hn::MulAdd(gap, gap, sum);
+      }
+      if (!hn::AllFalse(d, hn::Le(sum, hn::Load(d, threshold_ + lane))))
+      {
+        return true;
+      }
+    }
+    return false;
   }
 
   HWY_INLINE bool anyNear(const MeshBvh::Frame& frame, std::size_t k) const
