@@ -3,7 +3,7 @@
 # them. Included once, from the top.
 set(hybridtree_module_files "${PROJECT_SOURCE_DIR}/filters/vtk.module")
 set(hybridtree_modules HybridTree::Filters)
-if(HYBRIDTREE_BUILD_RECONSTRUCTION AND EXISTS "${PROJECT_SOURCE_DIR}/reconstruction/vtk.module")
+if(HYBRIDTREE_BUILD_RECONSTRUCTION)
   list(APPEND hybridtree_module_files "${PROJECT_SOURCE_DIR}/reconstruction/vtk.module")
   list(APPEND hybridtree_modules HybridTree::Reconstruction)
 endif()
