@@ -7,12 +7,14 @@
 #include "reconstruction/Convection.h"
 #include "reconstruction/PointCloud.h"
 #include "vtkCellArray.h"
+#include "vtkCellData.h"
 #include "vtkDataSet.h"
 #include "vtkDoubleArray.h"
 #include "vtkHybridTreeArray.h"
 #include "vtkIdTypeArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkIntArray.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
@@ -20,6 +22,7 @@
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkStringArray.h"
 
 #include <limits>
 
@@ -115,6 +118,20 @@ void writeArrays(const hybridtree::TriangleMesh& mesh, const std::vector<std::in
   }
   output->SetNormals(normals);
   output->AddArray(pointIds);
+}
+
+// The whole surface is one leaf, numbered and named as the other nodes number and name leaves.
+void writeSource(vtkPolyData* output)
+{
+  vtkNew<vtkIntArray> ids;
+  ids->SetName("SourceId");
+  ids->SetNumberOfTuples(output->GetNumberOfCells());
+  ids->Fill(0);
+  output->GetCellData()->AddArray(ids);
+  vtkNew<vtkStringArray> names;
+  names->SetName("SourceNames");
+  names->InsertNextValue("Mesh 0");
+  output->GetFieldData()->AddArray(names);
 }
 
 } // namespace
@@ -222,6 +239,7 @@ void vtkHybridTreeReconstruction::Reconstruct(vtkDataSet* input, vtkPolyData* ou
 
   writeGeometry(surface.mesh, pointType(input), output);
   writeArrays(surface.mesh, surface.pointIds, input->GetPointData(), output->GetPointData());
+  writeSource(output);
   const auto mesh = std::make_shared<const TriangleMesh>(std::move(surface.mesh));
   vtkHybridTreeArray::PutTree(
     makeMeshNode(mesh, 2.0 * kThreshold, defaultInfluenceRadius(*mesh), 2), output);

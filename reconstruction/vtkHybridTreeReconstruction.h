@@ -9,8 +9,9 @@
  * 2-manifold, oriented outward, its vertices a subset of the input's points, bit for bit.
  *
  * Output point data: Normals (unit, outward, area weighted), PointIds (index of the input point)
- * and the input's point arrays but for one called Normals. The output is a node of the HybridTree,
- * a mesh leaf with a tenth of its diagonal as radius of influence.
+ * and the input's point arrays but for one called Normals. Cell data: SourceId, 0 throughout, with
+ * the leaf's name in the field data SourceNames. The output is a node of the HybridTree, a mesh leaf
+ * with a tenth of its diagonal as radius of influence.
  *
  * Pieces: the first piece is everything, all other pieces are empty; the input is asked for as one
  * piece.
