@@ -12,6 +12,7 @@ COMMON = {"EdgeLength"}
 FIELD = COMMON | {"SurfaceRadius", "InfluenceRadius", "Exponent", "Negative", "FieldMode", "MaximumField"}
 BARR = COMMON | {"Input", "Origin", "Axis", "Normal", "Range"}
 BLEND = COMMON | {"Method", "OverlapThreshold"}
+INPUTS = {"Input", "A", "B", "Region", "Tree", "Points"}
 # The names that scripts rely on; a proxy may have more.
 NAMES = {
     "HybridTreePoint": FIELD | {"Center"},
@@ -50,6 +51,16 @@ def printed(proxy):
     return dict(re.findall(r"^  ([A-Z]\w*): (.*)$", text, re.MULTILINE))
 
 
+def input_names(proxy):
+    """Names of all input properties, internal ones too: pvpython connects the first to the active source."""
+    iterator = proxy.NewPropertyIterator()
+    iterator.Begin()
+    while not iterator.IsAtEnd():
+        if is_input(iterator.GetProperty()):
+            yield iterator.GetKey()
+        iterator.Next()
+
+
 def is_input(prop):
     return prop.IsA("vtkSMInputProperty")
 
@@ -75,6 +86,8 @@ def check(name):
 
     found = dict(properties(proxy))
     assert NAMES[name] <= set(found), f"{name} has no {NAMES[name] - set(found)}"
+
+    assert set(input_names(proxy)) == NAMES[name] & INPUTS, f"{name} takes {set(input_names(proxy))}"
 
     # Defaults of the XML are those of the class: the first push changes nothing.
     before = printed(proxy)
