@@ -4,6 +4,7 @@
 #include "reconstruction/FacetSize.h"
 #include "reconstruction/Front.h"
 #include "reconstruction/Regions.h"
+#include "reconstruction/SmallHandles.h"
 #include "reconstruction/SolidRepair.h"
 #include "reconstruction/Tetrahedralization.h"
 
@@ -20,6 +21,8 @@ namespace
 // Tetrahedra of at least this size are told apart by the watershed; smaller ones are left to the
 // flow. Low, since the watershed weighs both sides and the flow only knows one.
 constexpr double kWide = 1.0;
+// Handles among cells of at most this size are the sampling's, not the object's.
+constexpr double kHandle = 3.0;
 
 void appendBoundary(const Tetrahedralization& tetrahedra, const std::vector<std::uint8_t>& inside,
   ReconstructedSurface& surface)
@@ -68,9 +71,43 @@ void computeNormals(TriangleMesh& mesh)
   }
 }
 
-bool surfaceIsMissing(const std::vector<std::uint8_t>& inside)
+// Whether no solid was found, or but crumbs along the surface of something open: none of them
+// touches a hundredth of the points.
+bool solidIsMissing(const Tetrahedralization& tetrahedra, const std::vector<std::uint8_t>& inside)
 {
-  return std::find(inside.begin(), inside.end(), std::uint8_t(1)) == inside.end();
+  std::vector<std::uint8_t> seen(inside.size(), 0);
+  std::vector<std::int32_t> lastSolid(tetrahedra.points().size(), -1); // that touched the point
+  std::vector<std::int32_t> cells;
+  std::size_t most = 0;
+  for (std::int32_t seed = 0; seed < tetrahedra.finiteCellCount(); ++seed)
+  {
+    if (!inside[seed] || seen[seed])
+    {
+      continue;
+    }
+    std::size_t touched = 0;
+    cells.assign(1, seed);
+    seen[seed] = 1;
+    while (!cells.empty())
+    {
+      const std::int32_t cell = cells.back();
+      cells.pop_back();
+      for (int k = 0; k < 4; ++k)
+      {
+        std::int32_t& solid = lastSolid[tetrahedra.cell(cell)[k]];
+        touched += solid != seed;
+        solid = seed;
+        const std::int32_t beyond = tetrahedra.neighbor(cell, k);
+        if (inside[beyond] && !seen[beyond])
+        {
+          seen[beyond] = 1;
+          cells.push_back(beyond);
+        }
+      }
+    }
+    most = std::max(most, touched);
+  }
+  return most * 100 < tetrahedra.points().size() || most == 0;
 }
 
 std::vector<std::uint8_t> solid(
@@ -83,6 +120,7 @@ std::vector<std::uint8_t> solid(
   front.run(options.openPockets, progress);
   std::vector<std::uint8_t> inside = front.inside();
   repairSolid(tetrahedra, inside, progress);
+  removeSmallHandles(tetrahedra, sizes, kHandle, inside, progress);
   return inside;
 }
 
@@ -113,7 +151,7 @@ ReconstructedSurface reconstruct(
   std::vector<std::uint8_t> inside = solid(tetrahedra, options, ProgressPart(progress, 0.6, 0.95));
   progress.check();
   progress.report(0.95);
-  if (surfaceIsMissing(inside))
+  if (solidIsMissing(tetrahedra, inside))
   {
     surface.warnings.push_back("The points are too few, too scattered or on too open a surface to "
                                "tell inside from outside: only dents were followed.");

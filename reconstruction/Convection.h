@@ -48,7 +48,8 @@ struct ReconstructedSurface
 ///   a watershed over all facets (Regions.h), so that the flow never leaks through places of thin
 ///   sampling; this also finds the pockets to be opened;
 /// - along the surface the flow never changes the topology, so thin walls are not torn;
-/// - the solid is mended to a manifold at the end by passing or taking back single tetrahedra.
+/// - the solid is mended to a manifold at the end by passing or taking back single tetrahedra, and
+///   loses handles that are no larger than the sampling (SmallHandles.h).
 /// A cavity that is closed off all around, and a hole or wall about as thin as the points are far
 /// apart, may be lost.
 ///

@@ -38,6 +38,8 @@ public:
   std::size_t run()
   {
     this->removeCrumbsAndVoids();
+    unmended_.resize(tetrahedra_.points().size());
+    std::iota(unmended_.begin(), unmended_.end(), 0);
     bool left = true;
     for (mostFlips_ = 1; left && mostFlips_ <= kMostFlips; ++mostFlips_)
     {
@@ -77,7 +79,8 @@ private:
   std::vector<std::uint8_t> unseen_; // all 0 between uses
   std::vector<std::uint8_t> flips_;
   std::vector<std::uint8_t> waiting_;
-  std::vector<std::int32_t> vertices_;
+  std::vector<std::int32_t> vertices_; // that wait
+  std::vector<std::int32_t> unmended_; // that no change was found for; at first, all
   std::size_t changes_ = 0;
   long leastGain_ = 1; // of a change, in clumps too many
   int mostFlips_ = 1;  // of a cell, for changes that gain nothing
@@ -165,11 +168,8 @@ void SolidRepair::setSide(std::int32_t cell, bool inside)
 // Whether vertices are left that no change was found for.
 bool SolidRepair::mendVertices(Mend mend)
 {
-  bool left = false;
-  for (std::size_t v = tetrahedra_.points().size(); v > 0; --v)
-  {
-    this->await(static_cast<std::int32_t>(v - 1));
-  }
+  std::for_each(unmended_.rbegin(), unmended_.rend(), [this](std::int32_t v) { this->await(v); });
+  unmended_.clear();
   std::size_t step = 0;
   while (!vertices_.empty())
   {
@@ -189,10 +189,13 @@ bool SolidRepair::mendVertices(Mend mend)
     {
       const std::size_t before = changes_;
       (this->*mend)(vertex, clumps);
-      left = left || changes_ == before;
+      if (changes_ == before)
+      {
+        unmended_.push_back(vertex);
+      }
     }
   }
-  return left;
+  return !unmended_.empty();
 }
 
 // Of the changes that leave fewer vertices to be mended around here, takes the one that leaves the

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkHybridTreeReconstruction.h"
 
+#include "core/mesh/MeshChecks.h"
 #include "core/nodes/Node.h"
+#include "tests/reconstruction/DemoPoints.h"
 #include "tests/reconstruction/Samples.h"
+#include "vtkCellArrayIterator.h"
 #include "vtkCommand.h"
 #include "vtkDataArray.h"
 #include "vtkExecutive.h"
@@ -15,9 +18,12 @@
 #include "vtkPointSet.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
 #include "vtkTestErrorObserver.h"
 
 #include <gtest/gtest.h>
+
+#include <limits>
 
 namespace
 {
@@ -91,6 +97,110 @@ TEST(ReconstructionFilter, TakesAnyDataSet)
   filter->SetInputData(image);
   filter->Update();
   EXPECT_GT(filter->GetOutput()->GetNumberOfPolys(), 0);
+}
+
+TriangleMesh meshOf(vtkPolyData* data)
+{
+  TriangleMesh mesh;
+  mesh.points.resize(static_cast<std::size_t>(data->GetNumberOfPoints()));
+  for (std::size_t k = 0; k < mesh.points.size(); ++k)
+  {
+    data->GetPoint(static_cast<vtkIdType>(k), mesh.points[k].data());
+  }
+  const auto cells = vtk::TakeSmartPointer(data->GetPolys()->NewIterator());
+  for (cells->GoToFirstCell(); !cells->IsDoneWithTraversal(); cells->GoToNextCell())
+  {
+    vtkIdType size = 0;
+    const vtkIdType* corner = nullptr;
+    cells->GetCurrentCell(size, corner);
+    EXPECT_EQ(size, 3);
+    mesh.triangles.push_back({ static_cast<std::int32_t>(corner[0]),
+      static_cast<std::int32_t>(corner[1]), static_cast<std::int32_t>(corner[2]) });
+  }
+  return mesh;
+}
+
+// Scans of Debian's libcgal-demo, the files as they come.
+void reconstructScan(const std::vector<Vec3>& points, TriangleMesh& mesh)
+{
+  vtkNew<vtkPolyData> input;
+  fill(input, points, VTK_DOUBLE);
+  vtkNew<vtkHybridTreeReconstruction> filter;
+  filter->SetInputData(input);
+  filter->Update();
+  mesh = meshOf(filter->GetOutput());
+  const MeshReport report = checkMesh(mesh);
+  ASSERT_GT(report.triangles, 0u);
+  EXPECT_TRUE(report.closedManifold()) << report.describe();
+  EXPECT_EQ(report.unusedPoints, 0u);
+  EXPECT_GT(signedVolume(mesh), 0.0);
+  auto* ids =
+    vtkIdTypeArray::SafeDownCast(filter->GetOutput()->GetPointData()->GetArray("PointIds"));
+  ASSERT_TRUE(ids);
+  for (std::size_t k = 0; k < mesh.points.size(); ++k)
+  {
+    ASSERT_EQ(mesh.points[k], points.at(static_cast<std::size_t>(ids->GetValue(vtkIdType(k)))));
+  }
+}
+
+TEST(ReconstructionFilter, ReconstructsTheScannedKitten)
+{
+  const std::optional<std::vector<Vec3>> points = demoPoints("kitten.xyz");
+  if (!points)
+  {
+    GTEST_SKIP() << "kitten.xyz needs Debian's libcgal-demo: apt install libcgal-demo";
+  }
+  TriangleMesh mesh;
+  reconstructScan(*points, mesh);
+  EXPECT_EQ(checkMesh(mesh).components, 1u);
+  EXPECT_EQ(checkMesh(mesh).genus(), 1);
+  EXPECT_GT(mesh.points.size(), points->size() * 9 / 10);
+}
+
+TEST(ReconstructionFilter, ReconstructsTheScannedOni)
+{
+  const std::optional<std::vector<Vec3>> points = demoPoints("oni.pwn");
+  if (!points)
+  {
+    GTEST_SKIP() << "oni.pwn needs Debian's libcgal-demo: apt install libcgal-demo";
+  }
+  TriangleMesh mesh;
+  reconstructScan(*points, mesh);
+  EXPECT_EQ(checkMesh(mesh).components, 1u);
+}
+
+std::string errorOf(const std::vector<Vec3>& points)
+{
+  vtkNew<vtkPolyData> input;
+  fill(input, points, VTK_DOUBLE);
+  vtkNew<vtkHybridTreeReconstruction> filter;
+  vtkNew<vtkTest::ErrorObserver> errors;
+  vtkNew<vtkTest::ErrorObserver> executive;
+  filter->AddObserver(vtkCommand::ErrorEvent, errors);
+  filter->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, executive);
+  filter->SetInputData(input);
+  filter->Update();
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
+  return errors->GetErrorMessage();
+}
+
+TEST(ReconstructionFilter, SaysWhatIsWrongWithThePoints)
+{
+  const auto says = [](const std::vector<Vec3>& points, const char* text)
+  { EXPECT_NE(errorOf(points).find(text), std::string::npos) << errorOf(points); };
+  says({ { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } },
+    "The point set has 3 different points: a closed surface needs at least 4.");
+  says(std::vector<Vec3>(50, Vec3(1.0, 2.0, 3.0)),
+    "The point set has 1 different points: a closed surface needs at least 4.");
+  std::vector<Vec3> flat = randomSphere(50, 4);
+  for (Vec3& p : flat)
+  {
+    p.z() = 0.0;
+  }
+  says(flat, "All points lie on one plane: a closed surface needs points that span a volume.");
+  std::vector<Vec3> broken = randomSphere(50, 5);
+  broken[17].z() = std::numeric_limits<double>::quiet_NaN();
+  says(broken, "Point 17 ");
 }
 
 TEST(ReconstructionFilter, SaysWhatIsWrong)
