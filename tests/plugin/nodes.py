@@ -81,6 +81,15 @@ def check_lattice(proxy):
     assert bounds[3] > 0.31, f"the lattice is not deformed: {bounds}"
 
 
+def check_looked_at(proxy, downstream):
+    """A node that has only handed its tree on is meshed as soon as somebody else wants it."""
+    downstream.EdgeLength = 0.04
+    proxy.EdgeLength = 0.03
+    downstream.UpdatePipeline()
+    assert simple.servermanager.Fetch(proxy).GetNumberOfPolys() > 100
+    proxy.EdgeLength = downstream.EdgeLength = 0
+
+
 def check_state(folder, volumes):
     """A state file brings every node back, with its properties and its shape."""
     path = os.path.join(folder, "all.pvsm")
@@ -117,6 +126,7 @@ def main():
     for _, proxy in list(simple.GetSources().items()):  # what only the reload test needed
         if proxy.GetXMLName() == "HybridTreeAffineTransform" and proxy is not nodes["HybridTreeAffineTransform"]:
             simple.Delete(proxy)
+    check_looked_at(nodes["HybridTreeBoolean"], nodes["HybridTreeBend"])
     check_state(folder, volumes)
 
 

@@ -37,9 +37,15 @@ def new_proxy(name):
 
 
 def run(proxy, port=0):
-    """The data that a proxy makes, in this process."""
+    """The data that a proxy makes, in this process.
+
+    Asked of the VTK object too, as a view does: once a node downstream has run, ParaView's client takes
+    this one for up to date, though that node asked only for its tree.
+    """
     proxy.UpdatePipeline()
-    return proxy.SMProxy.GetClientSideObject().GetOutputDataObject(port)
+    algorithm = proxy.SMProxy.GetClientSideObject()
+    algorithm.Update(port)
+    return algorithm.GetOutputDataObject(port)
 
 
 def open_edges(mesh):
