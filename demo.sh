@@ -13,4 +13,7 @@ for example in kitten restoration; do
   say "running examples/python/$example.py"
   with_display pvpython "$project_dir/examples/python/$example.py" "$output"
 done
+say "running examples/cpp/jug.cxx"
+mkdir -p "$output/cpp"
+"$build_dir/bin/jug" "$output/kitten/kitten.vtp" "$output/kitten/knot2.vtp" "$output/cpp"
 say "done, see $output"
