@@ -4,6 +4,7 @@
 #include "core/base/Error.h"
 #include "core/base/Parallel.h"
 #include "core/geometry/PointTriangle.h"
+#include "core/mesh/KnownSides.h"
 #include "core/mesh/MeshBvh.h"
 #include "core/mesh/MeshSide.h"
 #include "core/mesh/NearestKernels.h"
@@ -142,6 +143,23 @@ void MeshDistance::nearest(PointBatch points, double maxDistance, double* distan
     });
 }
 
+// Where no triangle is within reach. The ball around p is made as large as it can be: it may answer
+// for many.
+int MeshDistance::sideFarAway(const Vec3& p, KnownSides& known) const
+{
+  if (this->isClosed() && !bounds_.contains(p))
+  {
+    return -1;
+  }
+  int side = known.find(p);
+  if (side == 0)
+  {
+    side = side_->side(p);
+    known.add(p, std::sqrt(nearestOf(*mesh_, *bvh_, p).squared), side);
+  }
+  return side;
+}
+
 void MeshDistance::signedDistance(PointBatch points, double maxDistance, double* distance,
   VectorBatch gradient, const MeshPart* part) const
 {
@@ -150,19 +168,29 @@ void MeshDistance::signedDistance(PointBatch points, double maxDistance, double*
   parallelFor(points.size, kParallelGrain,
     [&](std::size_t begin, std::size_t end)
     {
+      KnownSides known(*side_);
       for (std::size_t k = begin; k < end; ++k)
       {
         const Vec3 p = points[k];
         Vec3 direction = Vec3::Zero();
         if (triangle[k] < 0)
         {
-          distance[k] = side_->side(p) > 0 ? -kInfinity : kInfinity;
+          distance[k] = this->sideFarAway(p, known) > 0 ? -kInfinity : kInfinity;
         }
         else
         {
           const NearestOnTriangle nearest = hybridtree::nearestPoint(*mesh_, p, triangle[k]);
-          const int side = side_->side(p, triangle[k], nearest);
-          distance[k] = -side * std::sqrt(distance[k]);
+          distance[k] = std::sqrt(distance[k]);
+          int side = side_->isCostly() ? known.find(p) : 0;
+          if (side == 0)
+          {
+            side = side_->side(p, triangle[k], nearest);
+            if (side_->isCostly())
+            {
+              known.add(p, distance[k], side);
+            }
+          }
+          distance[k] *= -side;
           direction = side_->gradient(p, side, triangle[k], nearest);
         }
         if (gradient.x)
@@ -218,8 +246,8 @@ Interval MeshDistance::signedRange(const Box3& box) const
   {
     const double winding = side_->windingNumber(center);
     inside = winding > 0.5;
-    // The far-field expansion answers to about 1e-2.
-    oneSide = std::abs(winding - 0.5) > reach * side_->windingSlope(middle - reach) + 0.02;
+    oneSide = std::abs(winding - 0.5) >
+      reach * side_->windingSlope(middle - reach) + MeshSide::kWindingError;
   }
   if (!oneSide)
   {

@@ -11,6 +11,7 @@
 namespace hybridtree
 {
 
+class KnownSides;
 class MeshBvh;
 class MeshSide;
 
@@ -84,6 +85,7 @@ public:
 private:
   void find(PointBatch points, double maxDistance, const MeshPart* part, double* squared,
     std::int32_t* triangle) const;
+  int sideFarAway(const Vec3& p, KnownSides& known) const;
 
   MeshPtr mesh_;
   Box3 bounds_;

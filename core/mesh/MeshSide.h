@@ -24,14 +24,20 @@ namespace hybridtree
 class MeshSide
 {
 public:
+  /// What the far-field expansion of the winding number may be off by, doubled.
+  static constexpr double kWindingError = 0.02;
+
   /// \pre mesh and bvh outlive this.
   MeshSide(const TriangleMesh& mesh, const MeshBvh& bvh);
 
   /// \param nearest the point of `triangle` nearest to p, which is the nearest of the mesh.
   int side(const Vec3& p, std::int32_t triangle, const NearestOnTriangle& nearest) const;
 
-  /// Without a nearest point at hand.
+  /// Without a nearest point at hand: by the crossings of a ray, or by the winding number.
   int side(const Vec3& p) const;
+
+  /// side() with a nearest point costs as much as without: it seldom tells.
+  bool isCostly() const { return overlapping_ || !this->isClosed(); }
 
   /// Unit normal at a feature of a triangle: of the face, of the edge (mean of both faces), of the
   /// vertex (by angle).
@@ -50,6 +56,7 @@ public:
   /// most this, per length. 0 for a closed mesh. By Biot-Savart it is a line integral over the open
   /// edges of at most 1 / (4 pi r^2).
   double windingSlope(double distance) const;
+  /// \pre the mesh is not closed.
   double windingNumber(const Vec3& p) const { return winding_->at(p); }
 
 private:

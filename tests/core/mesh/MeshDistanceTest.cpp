@@ -289,12 +289,23 @@ TEST_P(MeshDistanceOf, ThreadsDoNotChangeTheAnswer)
   const MeshDistance distance(mesh);
   const Cloud cloud = samples(*mesh, 5, 4000);
   std::vector<double> one(cloud.x.size()), many(cloud.x.size());
+  std::vector<double> oneSigned(cloud.x.size()), manySigned(cloud.x.size());
   setThreadCount(1);
   distance.distance(cloud.batch(), kInfinity, one.data());
+  distance.signedDistance(cloud.batch(), 0.05, oneSigned.data(), {});
   setThreadCount(4);
   distance.distance(cloud.batch(), kInfinity, many.data());
+  distance.signedDistance(cloud.batch(), 0.05, manySigned.data(), {});
   setThreadCount(0);
   EXPECT_EQ(one, many);
+  EXPECT_EQ(oneSigned, manySigned);
+  // Nor does the company of the other points.
+  for (std::size_t k = 0; k < cloud.x.size(); k += 7)
+  {
+    double alone;
+    distance.signedDistance(cloud.batch().slice(k, 1), 0.05, &alone, {});
+    EXPECT_EQ(alone, oneSigned[k]);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Meshes, MeshDistanceOf,
