@@ -33,6 +33,11 @@ using Floats = hn::CappedTag<float, kPacket>; // over points
 using Eight = hn::CappedTag<float, kWidth>;   // over children and triangles
 using Doubles = hn::CappedTag<double, kWidth>;
 
+// Below this many points a node on average, a packet costs more than its points one by one. Then so
+// many packets go apart until one is tried again.
+constexpr std::size_t kCompany = 3;
+constexpr std::size_t kApart = 7;
+
 constexpr double kUnlimited = 3e38; // a float
 constexpr double kFarthest = 1e15;
 
@@ -445,10 +450,13 @@ public:
     while (!stack.empty())
     {
       const Entry entry = stack.pop();
-      if (entry.squared > limit_ || !this->anyNear(entry.slot))
+      const std::size_t near = entry.squared > limit_ ? 0 : this->pointsNear(entry.slot);
+      if (near == 0)
       {
         continue;
       }
+      ++visits_;
+      visitors_ += near;
       if (entry.ref & MeshBvh::kLeafBit)
       {
         this->visit(leaves_[entry.ref & ~MeshBvh::kLeafBit]);
@@ -460,6 +468,9 @@ public:
     }
     warm = triangle_[kPacket / 2] >= 0 ? this->triangle(kPacket / 2) : warm;
   }
+
+  /// Whether these points had so little in common that each had better gone by itself.
+  bool wereApart() const { return visitors_ < kCompany * visits_; }
 
   double squared(std::size_t k) const
   {
@@ -503,6 +514,8 @@ private:
     std::fill_n(best_, kPacket, limit);
     std::fill_n(triangle_, kPacket, std::int64_t(-1));
     std::fill_n(threshold_, kPacket, limit_);
+    visits_ = 0;
+    visitors_ = 0;
   }
 
   HWY_INLINE void visit(const MeshBvh::Leaf& leaf)
@@ -527,13 +540,15 @@ private:
     }
   }
 
-  // The box that all points have in common is much nearer to a node than any point may be.
-  HWY_INLINE bool anyNear(std::uint32_t slot) const
+  // How many points may be nearer to a box than to the best so far. The box that they all have in
+  // common is much nearer to it than any of them may be.
+  HWY_INLINE std::size_t pointsNear(std::uint32_t slot) const
   {
     if (slot == MeshBvh::kNone)
     {
-      return true;
+      return kPacket;
     }
+    std::size_t near = 0;
     const Floats d;
     const MeshBvh::Node& node = nodes_[slot / kWidth];
     const std::size_t k = slot % kWidth;
@@ -548,12 +563,9 @@ private:
         const auto gap = hn::Max(hn::Max(below, above), hn::Zero(d));
         sum = hn::MulAdd(gap, gap, sum);
       }
-      if (!hn::AllFalse(d, hn::Le(sum, hn::Load(d, threshold_ + lane))))
-      {
-        return true;
-      }
+      near += hn::CountTrue(d, hn::Le(sum, hn::Load(d, threshold_ + lane)));
     }
-    return false;
+    return near;
   }
 
   HWY_INLINE bool anyNear(const MeshBvh::Frame& frame, std::size_t k) const
@@ -640,31 +652,45 @@ private:
   float radius_;
   float limit_;
   double margin_;
+  std::size_t visits_;   // of nodes and leaves
+  std::size_t visitors_; // points that each was near enough to, added up
 };
 
 void findNearest(const NearestQuery& query, double* squared, std::int32_t* triangle)
 {
   const auto at = [&](std::size_t k) { return query.order ? query.order[k] : std::uint32_t(k); };
+  SingleSearch single(query);
+  const auto oneByOne = [&](std::size_t begin, std::size_t end)
+  {
+    for (std::size_t k = begin; k < end; ++k)
+    {
+      single.run(query.points[at(k)], squared[at(k)], triangle[at(k)]);
+    }
+  };
   if (query.count <= 2)
   {
-    SingleSearch search(query);
-    for (std::size_t k = 0; k < query.count; ++k)
-    {
-      search.run(query.points[at(k)], squared[at(k)], triangle[at(k)]);
-    }
+    oneByOne(0, query.count);
     return;
   }
   PacketSearch search(query);
   std::int32_t warm = -1;
+  std::size_t apart = 0; // packets still to go one by one
   for (std::size_t begin = 0; begin < query.count; begin += kPacket)
   {
     std::uint32_t take[kPacket];
     const std::size_t count = std::min(kPacket, query.count - begin);
+    if (apart > 0)
+    {
+      --apart;
+      oneByOne(begin, begin + count);
+      continue;
+    }
     for (std::size_t k = 0; k < count; ++k)
     {
       take[k] = at(begin + k);
     }
     search.run(take, count, warm);
+    apart = search.wereApart() ? kApart : 0;
     for (std::size_t k = 0; k < count; ++k)
     {
       squared[take[k]] = search.squared(k);

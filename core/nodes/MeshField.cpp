@@ -42,7 +42,7 @@ void toMesh(const Affine3& inverse, PointBatch points, VectorBatch local)
   }
 }
 
-constexpr std::size_t kBatch = 1024; // points a task
+constexpr std::size_t kBatch = 16384; // points a task: MeshDistance gains from company
 
 } // namespace
 
