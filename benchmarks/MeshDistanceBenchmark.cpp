@@ -2,11 +2,13 @@
 // Distance to real scans beside Embree's point queries ([HT] Fig. 7): 100^3 lattice points in the
 // unit box, for several radii of influence; scattered single points; building the hierarchy. Both
 // sides run one after the other in one process, each the median of a few rounds, on the same
-// threads.
+// threads. Then on one thread, by fewer points, CGAL's AABB tree and vtkImplicitPolyDataDistance;
+// and ours on two threads beside one.
 //
 //   MeshDistanceBenchmark [threads, default 1] [rounds, default 3]
 
 #include "benchmarks/support/BenchmarkMesh.h"
+#include "benchmarks/support/PeerDistances.h"
 #include "core/base/Parallel.h"
 #include "core/mesh/MeshBvh.h"
 #include "core/mesh/MeshDistance.h"
@@ -208,10 +210,11 @@ Cloud scattered(const Box3& box, int count)
   return cloud;
 }
 
-void report(const std::string& what, double ours, double peer, double count, double worst)
+void report(const std::string& what, double ours, double peer, double count, double worst,
+  const char* peerName = "Embree")
 {
-  std::printf("  %-34s ours %9.3f us  Embree %9.3f us  ratio %6.2f", what.c_str(),
-    1e6 * ours / count, 1e6 * peer / count, peer / ours);
+  std::printf("  %-34s ours %9.3f us  %s %9.3f us  ratio %6.2f", what.c_str(), 1e6 * ours / count,
+    peerName, 1e6 * peer / count, peer / ours);
   if (worst >= 0.0)
   {
     std::printf("  largest difference %.1e", worst);
@@ -253,6 +256,59 @@ void queries(const std::string& what, const MeshDistance& ours, const EmbreeDist
   report(what, median(myTimes), median(theirTimes), double(points.size), worst);
 }
 
+// Every 199th lattice point for the slower peers; ours has the whole lattice, as its users do.
+void slowerPeers(const MeshDistance& ours, PointBatch points)
+{
+  Cloud few;
+  for (std::size_t k = 0; k < points.size; k += 199)
+  {
+    few.x.push_back(points.x[k]);
+    few.y.push_back(points.y[k]);
+    few.z.push_back(points.z[k]);
+  }
+  std::vector<double> mine(points.size), theirs(few.x.size());
+  const struct
+  {
+    const char* name;
+    hybridtree::benchmark::PeerDistance distance;
+  } peers[] = { { "CGAL", hybridtree::benchmark::cgalDistance(*ours.mesh()) },
+    { "VTK", hybridtree::benchmark::vtkDistance(*ours.mesh()) } };
+  hybridtree::setThreadCount(1);
+  for (const auto& peer : peers)
+  {
+    std::vector<double> myTimes, theirTimes;
+    for (int round = 0; round < rounds; ++round)
+    {
+      myTimes.push_back(seconds([&] { ours.distance(points, kInfinity, mine.data()); }));
+      theirTimes.push_back(seconds([&] { peer.distance(few.batch(), theirs.data()); }));
+    }
+    double worst = 0.0;
+    for (std::size_t k = 0; k < theirs.size(); ++k)
+    {
+      worst = std::max(worst, std::abs(std::abs(theirs[k]) - mine[199 * k]));
+    }
+    const double perPoint = double(points.size) / double(few.x.size());
+    report("unbounded, 1 thread", median(myTimes), perPoint * median(theirTimes),
+      double(points.size), worst, peer.name);
+  }
+}
+
+void twoThreads(const MeshDistance& ours, PointBatch points)
+{
+  std::vector<double> distance(points.size), times[2];
+  for (int round = 0; round < rounds; ++round)
+  {
+    for (int threads = 1; threads <= 2; ++threads)
+    {
+      hybridtree::setThreadCount(threads);
+      times[threads - 1].push_back(
+        seconds([&] { ours.distance(points, kInfinity, distance.data()); }));
+    }
+  }
+  report("unbounded, 2 threads", median(times[1]), median(times[0]), double(points.size), -1.0,
+    "1 thread");
+}
+
 void compare(const char* name, const std::string& file, std::size_t triangles, int threads)
 {
   const MeshPtr mesh = hybridtree::benchmark::benchmarkMesh(file, triangles);
@@ -279,6 +335,9 @@ void compare(const char* name, const std::string& file, std::size_t triangles, i
   const Cloud cloud = scattered(mesh->bounds(), 100000);
   queries("scattered, one batch", ours, peer, cloud.batch(), kInfinity, false);
   queries("scattered, one call each", ours, peer, cloud.batch(), kInfinity, true);
+  slowerPeers(ours, grid.batch());
+  twoThreads(ours, grid.batch());
+  hybridtree::setThreadCount(threads);
 }
 
 } // namespace
