@@ -3,6 +3,7 @@
 
 #include "core/base/Error.h"
 #include "core/mesh/MeshChecks.h"
+#include "core/nodes/Blend.h"
 #include "tests/core/skeletons/SkeletonCases.h"
 
 #include <gtest/gtest.h>
@@ -388,6 +389,29 @@ TEST(Primitive, BadValuesAreNamed)
   EXPECT_THROW(primitiveFromParameters(makePrimitive(point, potential)->parameters(),
                  { makePrimitive(point, potential) }, nullptr),
     InvalidText);
+}
+
+// What cannot be meshed in double precision is refused, in whichever tree it is; what just can is
+// meshed.
+TEST(Primitive, WhatDoublePrecisionCannotHoldIsNotMeshed)
+{
+  const auto ball = [](double center, double size)
+  {
+    return makePrimitive(
+      std::make_shared<PointSkeleton>(Vec3(center, 0.0, 0.0)), Potential(1.0, size, 2));
+  };
+  const auto rod = makePrimitive(
+    std::make_shared<SegmentSkeleton>(Vec3::Zero(), Vec3(1e300, 0.0, 0.0)), Potential(1.0, 1.0, 2));
+  EXPECT_THROW(rod->mesh(), InvalidGeometry);
+  EXPECT_THROW(ball(1e300, 1.0)->mesh(), InvalidGeometry);
+  EXPECT_THROW(ball(1e17, 1.0)->mesh(), InvalidGeometry);
+  EXPECT_THROW(ball(0.0, 1e-150)->mesh(), InvalidGeometry);
+  EXPECT_THROW(makeBlend({ ball(0.0, 1.0), ball(1e300, 1.0) })->mesh(), InvalidGeometry);
+  for (const NodePtr& node : { ball(1e10, 1.0), ball(0.0, 1e-60), ball(0.0, 1e60) })
+  {
+    EXPECT_TRUE(isClosedManifold(*node->mesh()));
+    EXPECT_GT(signedVolume(*node->mesh()), 0.0);
+  }
 }
 
 } // namespace
