@@ -25,6 +25,11 @@ public:
     this->DataKey = vtkInformationIntegerKey::MakeKey("FORMULATION_MADE", "vtkHybridTreeAlgorithm");
   }
 
+  /// What is asked of a consumer says nothing about its inputs: FormulationRequest asks each of
+  /// them, and all others stay at MESH. By default executives would copy it, and it would stay
+  /// there.
+  void CopyDefaultInformation(vtkInformation*, vtkInformation*, vtkInformation*) override {}
+
   bool NeedToExecute(vtkInformation* pipelineInfo, vtkInformation* dataInfo) override
   {
     const auto field = static_cast<int>(Formulation::Field);
@@ -150,14 +155,9 @@ void FormulationRequest::ask(
   {
     return;
   }
-  std::vector<vtkInformation*> path = pathToNode(producer);
+  const std::vector<vtkInformation*> path = pathToNode(producer);
   const bool field =
     takesTree(consumer, port) && !path.empty() && meshUsers.count(path.back()) == 0;
-  if (path.empty())
-  {
-    // Even so: an executive copies what is asked of a consumer to its inputs by default.
-    path.push_back(informationOf(producer));
-  }
   for (vtkInformation* output : path)
   {
     before_.emplace_back(output, output->Get(formulationKey()));
