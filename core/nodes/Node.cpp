@@ -35,7 +35,8 @@ std::string text(double value)
 // \throws InvalidGeometry when numbers of double precision cannot hold a mesh of a shape there.
 void requireRepresentable(const Box3& surface)
 {
-  if (surface.isEmpty())
+  // A box of no extent bounds no surface: what two solids share that touch in a point.
+  if (surface.isEmpty() || surface.sizes().maxCoeff() == 0.0)
   {
     return;
   }
