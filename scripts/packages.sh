@@ -17,11 +17,14 @@ library_packages=(
   nlohmann-json3-dev
 )
 
-# ParaView and what its CMake package looks for.
+# ParaView and what its CMake package looks for. Qt: the plugin's icons are compiled in, and they and
+# most of ParaView's own are SVG, which Debian's ParaView does not bring the reader for.
 paraview_packages=(
   paraview
   paraview-dev
   python3-paraview
+  qtbase5-dev
+  libqt5svg5
   libopenmpi-dev
   openmpi-bin
   libpython3-dev

@@ -1,9 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Every proxy: label, defaults, domains, documentation, and every property pushed to the VTK object."""
+import os
 import re
 
 import plugin
 from paraview import servermanager
+
+ICONS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "plugin", "icons")
 
 LABELS = {
     "HybridTreeFreeFormDeformation": "HybridTree Free-Form Deformation",
@@ -75,6 +78,17 @@ def other_value(prop):
     return [prop.GetElement(k) + step * (k + 1) for k in range(prop.GetNumberOfElements())]
 
 
+def check_icon(name, hints):
+    """Menu and pipeline browser show the icon that bears the proxy's name, unless built without Qt."""
+    menu = hints.FindNestedElementByName("ShowInMenu").GetAttribute("icon")
+    pipeline = hints.FindNestedElementByName("PipelineIcon")
+    if menu or pipeline:
+        assert menu == pipeline.GetAttribute("name") == f":/HybridTree/{name}.svg", (menu, pipeline)
+    assert os.path.exists(os.path.join(ICONS, f"{name}.svg")), f"{name} has no icon"
+    with open(os.path.join(ICONS, "HybridTreeIcons.qrc")) as file:
+        assert f"<file>{name}.svg</file>" in file.read(), f"{name}.svg is not in the resource file"
+
+
 def check(name):
     proxy = plugin.new_proxy(name)
     assert proxy, f"{name} is missing"
@@ -83,6 +97,7 @@ def check(name):
     assert proxy.GetDocumentation().GetDescription().strip(), f"{name} has no documentation"
     category = proxy.GetHints().FindNestedElementByName("ShowInMenu").GetAttribute("category")
     assert category == "HybridTree", f"{name} is in the menu {category}"
+    check_icon(name, proxy.GetHints())
 
     found = dict(properties(proxy))
     assert NAMES[name] <= set(found), f"{name} has no {NAMES[name] - set(found)}"
