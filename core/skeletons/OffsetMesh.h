@@ -25,7 +25,7 @@ TriangleMesh meshRoundedBox(const BoxShape& box, double radius, double edgeLengt
 /// \pre all lengths > 0.
 TriangleMesh meshSharpBox(const BoxShape& box, double edgeLength);
 
-/// Torus around a circle, in rings of points around its axis. Thin ones have as many points on each
+/// Torus around a circle, by meshRevolved(): thin ones have as many points on each
 /// ring, and so regular connectivity; fat ones fewer on the inner rings, to keep the edges even.
 /// \pre 0 < tube < circle.radius.
 TriangleMesh meshTorus(const CircleShape& circle, double tube, double edgeLength);

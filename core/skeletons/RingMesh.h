@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "core/mesh/TriangleMesh.h"
+#include "core/skeletons/Meridian.h"
+
+#include <vector>
+
+namespace hybridtree
+{
+
+/// Where a surface of revolution stands. `axis` and `side` are unit vectors at right angles; the
+/// first point of an unshifted ring is towards `side`.
+struct RevolvedFrame
+{
+  Vec3 origin = Vec3::Zero();
+  Vec3 axis = Vec3::UnitZ();
+  Vec3 side = Vec3::UnitX();
+};
+
+/// One ring of points around the axis. Point k stands at the angle (2k + shift) pi / count. A ring
+/// on the axis is one point.
+struct Ring
+{
+  MeridianPoint place;
+  int count = 0;
+  int shift = 0; ///< 0 or 1
+};
+
+/// The mesh between rings that follow each other, the outside on the right of their order; `closed`
+/// joins the last to the first. Each strip advances on the ring that gives the shorter diagonal, in
+/// integers, so that the pattern repeats around the axis.
+/// \pre at least three rings, or two if one of them is on the axis; only the first and the last may
+/// be there.
+TriangleMesh meshRings(const std::vector<Ring>& rings, bool closed, const RevolvedFrame& frame);
+
+/// Largest distance of two joined points of neighbouring rings.
+double longestAcross(const Ring& a, const Ring& b);
+
+} // namespace hybridtree
