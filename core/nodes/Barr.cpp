@@ -109,7 +109,7 @@ public:
 
 protected:
   // A o w_F o A^-1 = w_{A F}, so every affine map passes on to the child.
-  NodePtr makeAffine(const Affine3& map) const override
+  NodePtr makeImage(const Affine3& map) const override
   {
     return std::make_shared<const BarrNode>(this->child()->affine(map),
       std::make_shared<const FramedWarp<Map>>(framed_->map(), map * framed_->frame()));

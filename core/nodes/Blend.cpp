@@ -4,8 +4,10 @@
 #include "core/base/Error.h"
 #include "core/base/Scratch.h"
 #include "core/nodes/BlendHierarchy.h"
+#include "core/nodes/BlendSource.h"
 #include "core/nodes/LatticeMesh.h"
 #include "core/nodes/Membership.h"
+#include "core/nodes/Operator.h"
 
 #include <algorithm>
 #include <array>
@@ -41,122 +43,22 @@ Box3 boundsOf(PointBatch points)
   return box;
 }
 
-void clear(double* value, std::size_t count)
+class Blend final : public SummedField<Operator>
 {
-  std::fill_n(value, count, 0.0);
-}
+  using Term = BlendHierarchy::Term;
 
-void clear(VectorBatch vector, std::size_t count)
-{
-  clear(vector.x, count);
-  clear(vector.y, count);
-  clear(vector.z, count);
-}
-
-// The terms of a blend that reach a brick, restricted to it.
-class BlendSource final : public FieldSource
-{
-public:
-  explicit BlendSource(std::vector<FieldSourcePtr> terms) : terms_(std::move(terms)) {}
-
-  void field(PointBatch points, double* value) const override
-  {
-    clear(value, points.size);
-    this->addField(points, value);
-  }
-
-  void fieldAndGradient(PointBatch points, double* value, VectorBatch gradient) const override
-  {
-    clear(value, points.size);
-    clear(gradient, points.size);
-    this->addFieldAndGradient(points, value, gradient);
-  }
-
-  void addField(PointBatch points, double* sum) const override
-  {
-    for (const FieldSourcePtr& term : terms_)
-    {
-      term->addField(points, sum);
-    }
-  }
-
-  void addFieldAndGradient(PointBatch points, double* sum, VectorBatch gradientSum) const override
-  {
-    for (const FieldSourcePtr& term : terms_)
-    {
-      term->addFieldAndGradient(points, sum, gradientSum);
-    }
-  }
-
-  Interval range(const Box3& box) const override
-  {
-    Interval sum;
-    for (const FieldSourcePtr& term : terms_)
-    {
-      sum = sum + term->range(box);
-    }
-    return sum;
-  }
-
-  FieldSourcePtr restrictedTo(const Box3& box) const override;
-
-private:
-  std::vector<FieldSourcePtr> terms_;
-};
-
-FieldSourcePtr sumOf(std::vector<FieldSourcePtr> terms)
-{
-  if (terms.empty())
-  {
-    return nullptr;
-  }
-  if (terms.size() == 1)
-  {
-    return std::move(terms.front());
-  }
-  return std::make_shared<BlendSource>(std::move(terms));
-}
-
-FieldSourcePtr BlendSource::restrictedTo(const Box3& box) const
-{
-  std::vector<FieldSourcePtr> kept;
-  kept.reserve(terms_.size());
-  for (const FieldSourcePtr& term : terms_)
-  {
-    if (FieldSourcePtr restricted = term->restrictedTo(box))
-    {
-      kept.push_back(std::move(restricted));
-    }
-  }
-  return sumOf(std::move(kept));
-}
-
-class Blend final : public Node
-{
 public:
   Blend(std::vector<NodePtr> children, const BlendOptions& options)
-    : children_(std::move(children)), options_(options), hierarchy_(Blend::flatTerms(children_))
+    : SummedField(std::move(children))
+    , options_(options)
+    , hierarchy_(Blend::flatTerms(this->children()))
   {
-    for (const NodePtr& child : children_)
+    for (const NodePtr& child : this->children())
     {
-      leafCount_ += std::min(child->leafCount(), std::numeric_limits<int>::max() - leafCount_);
       negative_ = negative_ && child->isNegative();
       influence_.extend(child->influenceBounds());
     }
     surface_ = this->findSurfaceBounds();
-  }
-
-  void field(PointBatch points, double* value) const override
-  {
-    clear(value, points.size);
-    this->addField(points, value);
-  }
-
-  void fieldAndGradient(PointBatch points, double* value, VectorBatch gradient) const override
-  {
-    clear(value, points.size);
-    clear(gradient, points.size);
-    this->addFieldAndGradient(points, value, gradient);
   }
 
   void addField(PointBatch points, double* sum) const override
@@ -165,7 +67,7 @@ public:
       [&](std::size_t begin, PointBatch slice)
       {
         hierarchy_.visit(boundsOf(slice),
-          [&](const BlendHierarchy::Term& term) { term.node->addField(slice, sum + begin); });
+          [&](const Term& term) { addMultiple(*term.node, term.count, slice, sum + begin); });
       });
   }
 
@@ -175,8 +77,8 @@ public:
       [&](std::size_t begin, PointBatch slice)
       {
         hierarchy_.visit(boundsOf(slice),
-          [&](const BlendHierarchy::Term& term)
-          { term.node->addFieldAndGradient(slice, sum + begin, gradientSum.slice(begin)); });
+          [&](const Term& term)
+          { addMultiple(*term.node, term.count, slice, sum + begin, gradientSum.slice(begin)); });
       });
   }
 
@@ -184,22 +86,22 @@ public:
   {
     Interval sum;
     hierarchy_.visit(
-      box, [&](const BlendHierarchy::Term& term) { sum = sum + term.node->range(box); });
+      box, [&](const Term& term) { sum = sum + multiple(term.node->range(box), term.count); });
     return sum;
   }
 
   FieldSourcePtr restrictedTo(const Box3& box) const override
   {
-    std::vector<FieldSourcePtr> kept;
+    std::vector<BlendSource::Term> kept;
     hierarchy_.visit(box,
-      [&](const BlendHierarchy::Term& term)
+      [&](const Term& term)
       {
         if (FieldSourcePtr restricted = term.node->restrictedTo(box))
         {
-          kept.push_back(std::move(restricted));
+          kept.push_back({ std::move(restricted), term.count });
         }
       });
-    return sumOf(std::move(kept));
+    return BlendSource::of(std::move(kept));
   }
 
   void membership(PointBatch points, std::int8_t* side) const override
@@ -214,13 +116,9 @@ public:
       [&](std::size_t begin, PointBatch slice) { this->sliceSourceLeaf(slice, leaf + begin); });
   }
 
-  int leafCount() const override { return leafCount_; }
   Box3 influenceBounds() const override { return influence_; }
   Box3 surfaceBounds() const override { return surface_; }
   bool isNegative() const override { return negative_; }
-
-  // The children are so already.
-  NodePtr underBlend() const override { return this->shared_from_this(); }
 
   const char* kind() const override { return "blend"; }
   Parameters parameters() const override
@@ -229,7 +127,6 @@ public:
     describeBlendOptions(options_, parameters);
     return parameters;
   }
-  std::vector<NodePtr> children() const override { return children_; }
 
 protected:
   TriangleMesh makeMesh(double edgeLength, const Progress& progress) const override
@@ -237,30 +134,31 @@ protected:
     return latticeMesh(*this, edgeLength, progress);
   }
 
-  NodePtr makeAffine(const Affine3& map) const override
-  {
-    std::vector<NodePtr> images;
-    images.reserve(children_.size());
-    for (const NodePtr& child : children_)
-    {
-      images.push_back(child->affine(map));
-    }
-    return makeBlend(std::move(images), options_);
-  }
-
   NodePtr withChildren(std::vector<NodePtr> children) const override
   {
     return makeBlend(std::move(children), options_);
   }
 
-private:
-  using Term = BlendHierarchy::Term;
+  // The children are so already.
+  NodePtr makeUnderBlend() const override { return this->shared_from_this(); }
 
-  // Sums are associative: the terms of a nested blend are terms of this one.
+private:
+  // Sums are associative: the terms of a nested blend are terms of this one. Equal ones become one
+  // term that counts several times.
   static std::vector<Term> flatTerms(const std::vector<NodePtr>& children)
   {
     std::vector<Term> terms;
-    std::int64_t firstLeaf = 0;
+    std::unordered_map<const Node*, std::size_t> place;
+    const auto add = [&](const Term& term, int leavesBefore)
+    {
+      const auto [known, isNew] = place.emplace(term.node, terms.size());
+      if (isNew)
+      {
+        terms.push_back({ term.node, leavesBefore + term.firstLeaf, 0 });
+      }
+      terms[known->second].count += term.count;
+    };
+    int leavesBefore = 0;
     for (const NodePtr& child : children)
     {
       const auto* nested = dynamic_cast<const Blend*>(child.get());
@@ -268,22 +166,16 @@ private:
       {
         for (const Term& term : nested->hierarchy_.terms())
         {
-          terms.push_back({ term.node, Blend::leafIndex(firstLeaf + term.firstLeaf) });
+          add(term, leavesBefore);
         }
       }
       else
       {
-        terms.push_back({ child.get(), Blend::leafIndex(firstLeaf) });
+        add({ child.get(), 0, 1 }, leavesBefore);
       }
-      firstLeaf += child->leafCount();
+      leavesBefore += child->leafCount();
     }
     return terms;
-  }
-
-  static std::int32_t leafIndex(std::int64_t index)
-  {
-    return static_cast<std::int32_t>(
-      std::min<std::int64_t>(index, std::numeric_limits<std::int32_t>::max()));
   }
 
   template <typename Body>
@@ -305,8 +197,9 @@ private:
     {
       if (!term.node->isNegative())
       {
-        bounds.extend(term.node->surfaceBounds());
-        influences.push_back(term.node->influenceBounds());
+        const Box3 influence = term.node->influenceBounds();
+        bounds.extend(term.count == 1 ? term.node->surfaceBounds() : influence);
+        influences.push_back(influence);
       }
     }
     for (std::size_t i = 0; i < influences.size(); ++i)
@@ -334,9 +227,9 @@ private:
   {
     constexpr std::int32_t kNone = -1;
     constexpr std::int32_t kSeveral = -2;
-    std::vector<std::pair<const Node*, Box3>> near;
+    std::vector<std::pair<Term, Box3>> near;
     hierarchy_.visit(boundsOf(points),
-      [&](const Term& term) { near.emplace_back(term.node, term.node->influenceBounds()); });
+      [&](const Term& term) { near.emplace_back(term, term.node->influenceBounds()); });
 
     std::array<std::int32_t, kSlice> sole;
     for (std::size_t k = 0; k < points.size; ++k)
@@ -348,8 +241,9 @@ private:
       {
         if (near[n].second.contains(point))
         {
-          sole[k] = sole[k] == kNone ? static_cast<std::int32_t>(n) : kSeveral;
-          positive = positive || !near[n].first->isNegative();
+          const bool first = sole[k] == kNone && near[n].first.count == 1;
+          sole[k] = first ? static_cast<std::int32_t>(n) : kSeveral;
+          positive = positive || !near[n].first.node->isNegative();
         }
       }
       sole[k] = positive ? sole[k] : kNone;
@@ -359,7 +253,7 @@ private:
     { return [&sole, wanted](std::size_t k) { return sole[k] == wanted; }; };
     for (std::size_t n = 0; n < near.size(); ++n)
     {
-      membershipWhere(*near[n].first, points, pick(static_cast<std::int32_t>(n)), side);
+      membershipWhere(*near[n].first.node, points, pick(static_cast<std::int32_t>(n)), side);
     }
     forPointsWhere(points, pick(kSeveral),
       [&](PointBatch chosen, const std::size_t* index)
@@ -390,7 +284,8 @@ private:
       {
         if (value[k] != 0.0)
         {
-          sole[k] = sole[k] == kNone ? static_cast<std::int32_t>(n) : kSeveral;
+          const bool first = sole[k] == kNone && near[n]->count == 1;
+          sole[k] = first ? static_cast<std::int32_t>(n) : kSeveral;
         }
       }
     }
@@ -403,12 +298,10 @@ private:
     }
   }
 
-  std::vector<NodePtr> children_;
   BlendOptions options_;
   BlendHierarchy hierarchy_;
   Box3 influence_;
   Box3 surface_;
-  int leafCount_ = 0;
   bool negative_ = true;
 };
 
@@ -443,18 +336,15 @@ BlendOptions blendOptionsFrom(const Parameters& parameters)
   return options;
 }
 
-std::vector<NodePtr> childrenUnderBlend(std::vector<NodePtr> children, const char* owner)
+std::vector<NodePtr> childrenUnderBlend(std::vector<NodePtr> children)
 {
-  std::unordered_map<const Node*, NodePtr> smooth;
   for (NodePtr& child : children)
   {
     if (!child)
     {
-      throw InvalidParameter("A child of the " + std::string(owner), "null", "a node");
+      throw InvalidParameter("A child of the blend", "null", "a node");
     }
-    NodePtr& known = smooth[child.get()];
-    known = known ? known : child->underBlend();
-    child = known;
+    child = child->underBlend();
   }
   return children;
 }
@@ -470,7 +360,7 @@ NodePtr makeBlend(std::vector<NodePtr> children, const BlendOptions& options)
   {
     return children.front();
   }
-  return std::make_shared<Blend>(childrenUnderBlend(std::move(children), "blend"), options);
+  return std::make_shared<Blend>(childrenUnderBlend(std::move(children)), options);
 }
 
 NodePtr blendFromParameters(

@@ -41,8 +41,8 @@ void describeBlendOptions(const BlendOptions& options, Parameters& parameters);
 BlendOptions blendOptionsFrom(const Parameters& parameters);
 ///@}
 
-/// The children as they have to be below a blend (Node::underBlend()), equal ones still shared.
-/// \throws InvalidParameter naming `owner` when one is null.
-std::vector<NodePtr> childrenUnderBlend(std::vector<NodePtr> children, const char* owner);
+/// The children as they have to be below a blend (Node::underBlend()).
+/// \throws InvalidParameter when one is null.
+std::vector<NodePtr> childrenUnderBlend(std::vector<NodePtr> children);
 
 } // namespace hybridtree

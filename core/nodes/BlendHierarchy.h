@@ -20,6 +20,7 @@ public:
   {
     const Node* node = nullptr;
     std::int32_t firstLeaf = 0; ///< index of the node's first leaf among those of the blend
+    std::int32_t count = 1;     ///< how often it is added
   };
 
   explicit BlendHierarchy(std::vector<Term> terms);

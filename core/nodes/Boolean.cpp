@@ -6,6 +6,7 @@
 #include "core/nodes/BooleanSource.h"
 #include "core/nodes/LatticeMesh.h"
 #include "core/nodes/Membership.h"
+#include "core/nodes/Operator.h"
 
 #include <algorithm>
 #include <array>
@@ -51,19 +52,19 @@ double unionDistance(double a, double b)
   return least >= 0.0 || other >= -least ? least : kUnknown;
 }
 
-class Boolean final : public Node
+class Boolean final : public Operator
 {
 public:
   Boolean(BooleanOperation operation, NodePtr a, NodePtr b, BooleanForm form)
-    : operation_(operation)
+    : Operator({ std::move(a), std::move(b) })
+    , operation_(operation)
     , form_(form)
-    , a_(std::move(a))
-    , b_(std::move(b))
-    , source_(operation, form == BooleanForm::Automatic ? BooleanForm::MinMax : form, a_, b_)
+    , a_(this->child(0).get())
+    , b_(this->child(1).get())
+    , source_(operation, form == BooleanForm::Automatic ? BooleanForm::MinMax : form,
+        this->child(0), this->child(1))
   {
     // Kept: asked often, and by walking the tree they would cost what it has leaves.
-    const std::int64_t leaves = std::int64_t(a_->leafCount()) + b_->leafCount();
-    leafCount_ = static_cast<int>(std::min<std::int64_t>(leaves, std::numeric_limits<int>::max()));
     negative_ = a_->isNegative() && b_->isNegative();
     // What only carves counts as 0.
     const auto kept = [](const Node& node, const Box3& box)
@@ -95,8 +96,15 @@ public:
       const PointBatch part = points.slice(begin, std::min(kPart, points.size - begin));
       std::int8_t* sideA = side + begin;
       a_->membership(part, sideA);
-      membershipWhere(
-        *b_, part, [&](std::size_t k) { return sideA[k] != decided; }, sideB.data());
+      if (a_ == b_)
+      {
+        std::copy_n(sideA, part.size, sideB.data());
+      }
+      else
+      {
+        membershipWhere(
+          *b_, part, [&](std::size_t k) { return sideA[k] != decided; }, sideB.data());
+      }
       for (std::size_t k = 0; k < part.size; ++k)
       {
         if (sideA[k] != decided)
@@ -111,7 +119,14 @@ public:
   {
     ScratchArray other(points.size);
     this->childDistance(*a_, points, distance);
-    this->childDistance(*b_, points, other.data());
+    if (a_ == b_)
+    {
+      std::copy_n(distance, points.size, other.data());
+    }
+    else
+    {
+      this->childDistance(*b_, points, other.data());
+    }
     for (std::size_t k = 0; k < points.size; ++k)
     {
       distance[k] = this->combinedDistance(distance[k], other[k]);
@@ -121,8 +136,7 @@ public:
   void sourceLeaf(PointBatch points, std::int32_t* leaf) const override
   {
     ScratchArray a(points.size), b(points.size), value(points.size);
-    a_->field(points, a.data());
-    b_->field(points, b.data());
+    askFields({ { a_, a.data() }, { b_, b.data() } }, points);
     booleanField(operation_, BooleanForm::MinMax, a.data(), b.data(), value.data(), points.size);
     std::fill_n(leaf, points.size, -1);
     const auto makes = [&](std::size_t k) { return value[k] > 0.0; };
@@ -133,22 +147,9 @@ public:
       *b_, points, [&](std::size_t k) { return makes(k) && !byA(k); }, a_->leafCount(), leaf);
   }
 
-  int leafCount() const override { return leafCount_; }
   Box3 influenceBounds() const override { return influence_; }
   Box3 surfaceBounds() const override { return surface_; }
   bool isNegative() const override { return negative_; }
-
-  NodePtr underBlend() const override
-  {
-    NodePtr a = a_->underBlend();
-    NodePtr b = b_->underBlend();
-    const BooleanForm form = form_ == BooleanForm::Automatic ? BooleanForm::Smooth : form_;
-    if (a == a_ && b == b_ && form == form_)
-    {
-      return this->shared_from_this();
-    }
-    return std::make_shared<Boolean>(operation_, std::move(a), std::move(b), form);
-  }
 
   const char* kind() const override { return "boolean"; }
   Parameters parameters() const override
@@ -158,7 +159,6 @@ public:
     parameters.set("form", kFormNames[static_cast<std::size_t>(form_)]);
     return parameters;
   }
-  std::vector<NodePtr> children() const override { return { a_, b_ }; }
 
 protected:
   TriangleMesh makeMesh(double edgeLength, const Progress& progress) const override
@@ -166,14 +166,21 @@ protected:
     return latticeMesh(*this, edgeLength, progress);
   }
 
-  NodePtr makeAffine(const Affine3& map) const override
-  {
-    return makeBoolean(operation_, a_->affine(map), b_->affine(map), form_);
-  }
-
   NodePtr withChildren(std::vector<NodePtr> children) const override
   {
     return makeBoolean(operation_, children[0], children[1], form_);
+  }
+
+  NodePtr makeUnderBlend() const override
+  {
+    NodePtr a = a_->underBlend();
+    NodePtr b = b_->underBlend();
+    const BooleanForm form = form_ == BooleanForm::Automatic ? BooleanForm::Smooth : form_;
+    if (a.get() == a_ && b.get() == b_ && form == form_)
+    {
+      return this->shared_from_this();
+    }
+    return makeBoolean(operation_, std::move(a), std::move(b), form);
   }
 
 private:
@@ -244,12 +251,11 @@ private:
 
   BooleanOperation operation_;
   BooleanForm form_;
-  NodePtr a_;
-  NodePtr b_;
+  const Node* a_;
+  const Node* b_;
   BooleanSource source_;
   Box3 influence_;
   Box3 surface_;
-  int leafCount_ = 0;
   bool negative_ = false;
 };
 
@@ -257,10 +263,6 @@ private:
 
 NodePtr makeBoolean(BooleanOperation operation, NodePtr a, NodePtr b, BooleanForm form)
 {
-  if (!a || !b)
-  {
-    throw InvalidParameter("An operand of the Boolean", "null", "a node");
-  }
   return std::make_shared<Boolean>(operation, std::move(a), std::move(b), form);
 }
 

@@ -73,6 +73,12 @@ FieldSourcePtr ClampedSource::restrictedTo(const Box3& box) const
   return clamped(std::move(source), range, max_);
 }
 
+const Question& firstOf(const FieldSource* source, std::initializer_list<Question> questions)
+{
+  return *std::find_if(questions.begin(), questions.end(),
+    [&](const Question& question) { return question.source == source; });
+}
+
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
 } // namespace
@@ -111,17 +117,58 @@ FieldSourcePtr restrictionOf(const FieldSource* source, const Box3& box)
   return source ? source->restrictedTo(box) : nullptr;
 }
 
+void askFields(std::initializer_list<Question> questions, PointBatch points)
+{
+  for (const Question& question : questions)
+  {
+    const Question& first = firstOf(question.source, questions);
+    if (&first == &question)
+    {
+      fieldOf(question.source, points, question.value);
+      continue;
+    }
+    std::copy_n(first.value, points.size, question.value);
+  }
+}
+
+void askFieldsAndGradients(std::initializer_list<Question> questions, PointBatch points)
+{
+  for (const Question& question : questions)
+  {
+    const Question& first = firstOf(question.source, questions);
+    if (&first == &question)
+    {
+      fieldAndGradientOf(question.source, points, question.value, question.gradient);
+      continue;
+    }
+    std::copy_n(first.value, points.size, question.value);
+    std::copy_n(first.gradient.x, points.size, question.gradient.x);
+    std::copy_n(first.gradient.y, points.size, question.gradient.y);
+    std::copy_n(first.gradient.z, points.size, question.gradient.z);
+  }
+}
+
 BooleanSource::BooleanSource(
   BooleanOperation operation, BooleanForm form, FieldSourcePtr a, FieldSourcePtr b)
   : operation_(operation), form_(form), a_(std::move(a)), b_(std::move(b))
 {
 }
 
+BooleanSource::BooleanSource(BooleanOperation operation, BooleanForm form, FieldSourcePtr a,
+  FieldSourcePtr b, const Box3& box, Interval rangeA, Interval rangeB)
+  : operation_(operation)
+  , form_(form)
+  , a_(std::move(a))
+  , b_(std::move(b))
+  , box_(box)
+  , range_(booleanRange(operation, form, rangeA, rangeB))
+{
+}
+
 void BooleanSource::field(PointBatch points, double* value) const
 {
   ScratchArray other(points.size);
-  fieldOf(a_.get(), points, value);
-  fieldOf(b_.get(), points, other.data());
+  askFields({ { a_.get(), value }, { b_.get(), other.data() } }, points);
   booleanField(operation_, form_, value, other.data(), value, points.size);
 }
 
@@ -130,8 +177,7 @@ void BooleanSource::fieldAndGradient(PointBatch points, double* value, VectorBat
   ScratchArray other(points.size);
   ScratchVectors otherGradient(points.size);
   const VectorBatch g = otherGradient.batch();
-  fieldAndGradientOf(a_.get(), points, value, gradient);
-  fieldAndGradientOf(b_.get(), points, other.data(), g);
+  askFieldsAndGradients({ { a_.get(), value, gradient }, { b_.get(), other.data(), g } }, points);
   for (std::size_t k = 0; k < points.size; ++k)
   {
     const BooleanValue result = booleanValue(operation_, form_, value[k], other[k]);
@@ -144,20 +190,26 @@ void BooleanSource::fieldAndGradient(PointBatch points, double* value, VectorBat
 
 Interval BooleanSource::range(const Box3& box) const
 {
-  return booleanRange(operation_, form_, rangeOf(a_.get(), box), rangeOf(b_.get(), box));
+  if (!box_.isEmpty() && box.min() == box_.min() && box.max() == box_.max())
+  {
+    return range_;
+  }
+  const Interval rangeA = rangeOf(a_.get(), box);
+  return booleanRange(operation_, form_, rangeA, a_ == b_ ? rangeA : rangeOf(b_.get(), box));
 }
 
 FieldSourcePtr BooleanSource::restrictedTo(const Box3& box) const
 {
-  return booleanSource(
-    operation_, form_, restrictionOf(a_.get(), box), restrictionOf(b_.get(), box), box);
+  FieldSourcePtr a = restrictionOf(a_.get(), box);
+  FieldSourcePtr b = a_ == b_ ? a : restrictionOf(b_.get(), box);
+  return booleanSource(operation_, form_, std::move(a), std::move(b), box);
 }
 
 FieldSourcePtr booleanSource(
   BooleanOperation operation, BooleanForm form, FieldSourcePtr a, FieldSourcePtr b, const Box3& box)
 {
   const Interval rangeA = rangeOf(a.get(), box);
-  const Interval rangeB = rangeOf(b.get(), box);
+  const Interval rangeB = a == b ? rangeA : rangeOf(b.get(), box);
   const bool noA = !a || rangeA.max <= 0.0;
   const bool noB = !b || rangeB.max <= 0.0;
   const bool sharp = form == BooleanForm::MinMax;
@@ -193,7 +245,8 @@ FieldSourcePtr booleanSource(
       return clamped(std::move(b), rangeB, kNoLimit);
     }
   }
-  return std::make_shared<BooleanSource>(operation, form, std::move(a), std::move(b));
+  return std::make_shared<BooleanSource>(
+    operation, form, std::move(a), std::move(b), box, rangeA, rangeB);
 }
 
 } // namespace hybridtree

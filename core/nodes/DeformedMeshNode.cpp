@@ -127,17 +127,17 @@ TriangleMesh DeformedMesh::makeMesh(const Progress& progress) const
 // -------------------------------------------------------------------------------------
 
 DeformedMeshNode::DeformedMeshNode(std::shared_ptr<const DeformedMesh> shape, const Affine3& map)
-  : shape_(std::move(shape)), map_(map)
+  : Operator({ shape->child() }), shape_(std::move(shape)), map_(map)
 {
 }
 
 // Null when there is no surface, and so no field.
-const MeshField* DeformedMeshNode::meshField() const
+const MeshField* DeformedMeshNode::meshField(const Progress& progress) const
 {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (!field_)
   {
-    MeshPtr mesh = shape_->mesh(Progress::none());
+    MeshPtr mesh = shape_->mesh(progress);
     if (mesh->empty())
     {
       return nullptr;
@@ -284,7 +284,7 @@ TriangleMesh DeformedMeshNode::makeMesh(double, const Progress& progress) const
   return mesh;
 }
 
-NodePtr DeformedMeshNode::makeAffine(const Affine3& map) const
+NodePtr DeformedMeshNode::makeImage(const Affine3& map) const
 {
   return std::make_shared<const DeformedMeshNode>(shape_, map * map_);
 }

@@ -4,6 +4,7 @@
 #include "core/nodes/FreeForm.h"
 #include "core/nodes/FreeFormWarp.h"
 #include "core/nodes/MeshField.h"
+#include "core/nodes/Operator.h"
 
 namespace hybridtree
 {
@@ -53,7 +54,7 @@ private:
 
 /// Free-form deformation with the field around the deformed mesh ([HT] 4.5.2): a mesh node once
 /// made. Seen through a matrix, as mesh leaves are: affine maps never make the mesh again.
-class DeformedMeshNode final : public Node
+class DeformedMeshNode final : public Operator
 {
 public:
   DeformedMeshNode(std::shared_ptr<const DeformedMesh> shape, const Affine3& map);
@@ -69,7 +70,6 @@ public:
   void signedDistance(PointBatch points, double* distance) const override;
   /// The leaf of the nearest triangle.
   void sourceLeaf(PointBatch points, std::int32_t* leaf) const override;
-  int leafCount() const override { return shape_->child()->leafCount(); }
   Box3 influenceBounds() const override;
   Box3 surfaceBounds() const override;
   bool isNegative() const override { return shape_->surfaceField().maximumField < 0.0; }
@@ -78,7 +78,6 @@ public:
 
   const char* kind() const override { return "freeForm"; }
   Parameters parameters() const override;
-  std::vector<NodePtr> children() const override { return { shape_->child() }; }
   std::vector<std::string> warnings() const override
   {
     return shape_->setting().warnings(shape_->child()->surfaceBounds());
@@ -87,11 +86,13 @@ public:
 protected:
   /// The deformed mesh, at any length asked.
   TriangleMesh makeMesh(double edgeLength, const Progress& progress) const override;
-  NodePtr makeAffine(const Affine3& map) const override;
+  NodePtr makeImage(const Affine3& map) const override;
   NodePtr withChildren(std::vector<NodePtr> children) const override;
 
 private:
-  const MeshField* meshField() const;
+  void prepareField(const Progress& progress) const override { this->meshField(progress); }
+
+  const MeshField* meshField(const Progress& progress = Progress::none()) const;
 
   std::shared_ptr<const DeformedMesh> shape_;
   Affine3 map_;

@@ -36,7 +36,7 @@ public:
   }
 
 protected:
-  NodePtr makeAffine(const Affine3& map) const override
+  NodePtr makeImage(const Affine3& map) const override
   {
     FreeFormSetting setting = setting_;
     setting.warp = std::make_shared<const FreeFormWarp>(

@@ -5,6 +5,7 @@
 #include "core/nodes/BooleanSource.h"
 #include "core/nodes/LatticeMesh.h"
 #include "core/nodes/Membership.h"
+#include "core/nodes/Operator.h"
 
 #include <algorithm>
 #include <limits>
@@ -30,9 +31,7 @@ public:
   {
     const std::size_t count = points.size;
     ScratchArray b(count), c(count), united(count);
-    fieldOf(a_.get(), points, value);
-    fieldOf(b_.get(), points, b.data());
-    fieldOf(region_.get(), points, c.data());
+    askFields({ { a_.get(), value }, { b_.get(), b.data() }, { region_.get(), c.data() } }, points);
     booleanField(kUnion, kSmooth, value, b.data(), united.data(), count);
     for (std::size_t k = 0; k < count; ++k)
     {
@@ -49,9 +48,9 @@ public:
     ScratchVectors vectorsB(count), vectorsC(count);
     const VectorBatch gradientB = vectorsB.batch();
     const VectorBatch gradientC = vectorsC.batch();
-    fieldAndGradientOf(a_.get(), points, value, gradient);
-    fieldAndGradientOf(b_.get(), points, b.data(), gradientB);
-    fieldAndGradientOf(region_.get(), points, c.data(), gradientC);
+    askFieldsAndGradients({ { a_.get(), value, gradient }, { b_.get(), b.data(), gradientB },
+                            { region_.get(), c.data(), gradientC } },
+      points);
     for (std::size_t k = 0; k < count; ++k)
     {
       const BooleanValue united = booleanValue(kUnion, kSmooth, value[k], b[k]);
@@ -65,47 +64,44 @@ public:
     }
   }
 
-  // Linear in c, and rising with sum and union.
   Interval range(const Box3& box) const override
   {
+    if (!box_.isEmpty() && box.min() == box_.min() && box.max() == box_.max())
+    {
+      return range_;
+    }
     const Interval a = rangeOf(a_.get(), box);
-    const Interval b = rangeOf(b_.get(), box);
-    const Interval c = rangeOf(region_.get(), box);
-    const Interval sum = a + b;
-    const Interval united = booleanRange(kUnion, kSmooth, a, b);
-    const double low = std::clamp(c.min, 0.0, 1.0);
-    const double high = std::clamp(c.max, 0.0, 1.0);
-    return { std::min(mixed(sum.min, united.min, low), mixed(sum.min, united.min, high)),
-      std::max(mixed(sum.max, united.max, low), mixed(sum.max, united.max, high)) };
+    const Interval b = b_ == a_ ? a : rangeOf(b_.get(), box);
+    return mixed(a, b, region_ == a_ ? a : region_ == b_ ? b : rangeOf(region_.get(), box));
   }
 
   FieldSourcePtr restrictedTo(const Box3& box) const override
   {
-    return LocalBlendSource::make(restrictionOf(a_.get(), box), restrictionOf(b_.get(), box),
-      restrictionOf(region_.get(), box), box);
-  }
-
-  static FieldSourcePtr make(
-    FieldSourcePtr a, FieldSourcePtr b, FieldSourcePtr region, const Box3& box)
-  {
+    const FieldSourcePtr a = restrictionOf(a_.get(), box);
+    const FieldSourcePtr b = b_ == a_ ? a : restrictionOf(b_.get(), box);
     if (!a && !b)
     {
       return nullptr;
     }
-    if (rangeOf(region.get(), box).max <= 0.0)
+    const FieldSourcePtr region = region_ == a_ ? a
+      : region_ == b_                           ? b
+                                                : restrictionOf(region_.get(), box);
+    const Interval rangeC = rangeOf(region.get(), box);
+    if (rangeC.max <= 0.0)
     {
-      return booleanSource(kUnion, kSmooth, std::move(a), std::move(b), box);
+      return booleanSource(kUnion, kSmooth, a, b, box);
     }
+    const Interval rangeA = rangeOf(a.get(), box);
+    const Interval rangeB = b == a ? rangeA : rangeOf(b.get(), box);
     // Sum and union of one field and nothing are that field, unless it is negative.
-    if (!a || !b)
+    if ((!a && rangeB.min >= 0.0) || (!b && rangeA.min >= 0.0))
     {
-      FieldSourcePtr& alone = a ? a : b;
-      if (rangeOf(alone.get(), box).min >= 0.0)
-      {
-        return std::move(alone);
-      }
+      return a ? a : b;
     }
-    return std::make_shared<LocalBlendSource>(std::move(a), std::move(b), std::move(region));
+    auto restricted = std::make_shared<LocalBlendSource>(a, b, region);
+    restricted->box_ = box;
+    restricted->range_ = mixed(rangeA, rangeB, rangeC);
+    return restricted;
   }
 
 private:
@@ -114,24 +110,36 @@ private:
     return weight * sum + (1.0 - weight) * united;
   }
 
+  // Linear in c, and rising with sum and union.
+  static Interval mixed(Interval a, Interval b, Interval c)
+  {
+    const Interval sum = a + b;
+    const Interval united = booleanRange(kUnion, kSmooth, a, b);
+    const double low = std::clamp(c.min, 0.0, 1.0);
+    const double high = std::clamp(c.max, 0.0, 1.0);
+    return { std::min(mixed(sum.min, united.min, low), mixed(sum.min, united.min, high)),
+      std::max(mixed(sum.max, united.max, low), mixed(sum.max, united.max, high)) };
+  }
+
   FieldSourcePtr a_;
   FieldSourcePtr b_;
   FieldSourcePtr region_;
+  Box3 box_;       ///< where the range is known, as in BooleanSource
+  Interval range_; ///< over that box
 };
 
-class LocalBlend final : public Node
+class LocalBlend final : public Operator
 {
 public:
   LocalBlend(NodePtr a, NodePtr b, NodePtr region, const BlendOptions& options)
-    : a_(std::move(a))
-    , b_(std::move(b))
-    , region_(std::move(region))
+    : Operator({ std::move(a), std::move(b), std::move(region) })
+    , a_(this->child(0).get())
+    , b_(this->child(1).get())
+    , region_(this->child(2).get())
     , options_(options)
-    , source_(a_, b_, region_)
+    , source_(this->child(0), this->child(1), this->child(2))
   {
-    const std::int64_t leaves =
-      std::int64_t(a_->leafCount()) + b_->leafCount() + region_->leafCount();
-    leafCount_ = static_cast<int>(std::min<std::int64_t>(leaves, std::numeric_limits<int>::max()));
+    negative_ = a_->isNegative() && b_->isNegative();
     influence_ = this->findInfluenceBounds();
     surface_ = this->findSurfaceBounds();
   }
@@ -160,6 +168,10 @@ public:
     for (std::size_t begin = 0; begin < points.size; begin += sideB.size())
     {
       const std::size_t count = std::min(sideB.size(), points.size - begin);
+      if (a_ == b_)
+      {
+        break; // the union is A
+      }
       b_->membership(points.slice(begin, count), sideB.data());
       for (std::size_t k = 0; k < count; ++k)
       {
@@ -184,9 +196,7 @@ public:
   {
     const std::size_t count = points.size;
     ScratchArray a(count), b(count), c(count);
-    a_->field(points, a.data());
-    b_->field(points, b.data());
-    region_->field(points, c.data());
+    askFields({ { a_, a.data() }, { b_, b.data() }, { region_, c.data() } }, points);
     std::fill_n(leaf, count, -1);
     const auto blended = [&](std::size_t k) { return c[k] > 0.0 && a[k] != 0.0 && b[k] != 0.0; };
     sourceLeafWhere(
@@ -196,13 +206,9 @@ public:
       leaf);
   }
 
-  int leafCount() const override { return leafCount_; }
   Box3 influenceBounds() const override { return influence_; }
   Box3 surfaceBounds() const override { return surface_; }
-  bool isNegative() const override { return a_->isNegative() && b_->isNegative(); }
-
-  // The children are so already.
-  NodePtr underBlend() const override { return this->shared_from_this(); }
+  bool isNegative() const override { return negative_; }
 
   const char* kind() const override { return "localBlend"; }
   Parameters parameters() const override
@@ -211,7 +217,6 @@ public:
     describeBlendOptions(options_, parameters);
     return parameters;
   }
-  std::vector<NodePtr> children() const override { return { a_, b_, region_ }; }
 
 protected:
   TriangleMesh makeMesh(double edgeLength, const Progress& progress) const override
@@ -219,21 +224,19 @@ protected:
     return latticeMesh(*this, edgeLength, progress);
   }
 
-  NodePtr makeAffine(const Affine3& map) const override
-  {
-    return makeLocalBlend(a_->affine(map), b_->affine(map), region_->affine(map), options_);
-  }
-
   NodePtr withChildren(std::vector<NodePtr> children) const override
   {
     return makeLocalBlend(children[0], children[1], children[2], options_);
   }
 
+  // The children are so already.
+  NodePtr makeUnderBlend() const override { return this->shared_from_this(); }
+
 private:
   Box3 findInfluenceBounds() const
   {
     Box3 box;
-    for (const NodePtr& operand : { a_, b_ })
+    for (const Node* operand : { a_, b_ })
     {
       // What only carves counts as 0 in the union: it is felt in the region alone.
       const Box3 reach = operand->influenceBounds();
@@ -248,7 +251,7 @@ private:
   Box3 findSurfaceBounds() const
   {
     Box3 box;
-    for (const NodePtr& operand : { a_, b_ })
+    for (const Node* operand : { a_, b_ })
     {
       if (!operand->isNegative())
       {
@@ -265,14 +268,14 @@ private:
     return box;
   }
 
-  NodePtr a_;
-  NodePtr b_;
-  NodePtr region_;
+  const Node* a_;
+  const Node* b_;
+  const Node* region_;
   BlendOptions options_;
   LocalBlendSource source_;
   Box3 influence_;
   Box3 surface_;
-  int leafCount_ = 0;
+  bool negative_ = false;
 };
 
 } // namespace
@@ -280,8 +283,7 @@ private:
 NodePtr makeLocalBlend(NodePtr a, NodePtr b, NodePtr region, const BlendOptions& options)
 {
   checkBlendOptions(options);
-  const std::vector<NodePtr> children =
-    childrenUnderBlend({ std::move(a), std::move(b), std::move(region) }, "local blend");
+  const std::vector<NodePtr> children = childrenUnderBlend({ a, b, region });
   return std::make_shared<LocalBlend>(children[0], children[1], children[2], options);
 }
 

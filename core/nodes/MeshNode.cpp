@@ -42,7 +42,6 @@ public:
   {
     std::fill_n(leaf, points.size, 0);
   }
-  int leafCount() const override { return 1; }
   Box3 influenceBounds() const override { return field_.influenceBounds(); }
   Box3 surfaceBounds() const override { return field_.isNegative() ? Box3() : field_.meshBounds(); }
   bool isNegative() const override { return field_.isNegative(); }

@@ -119,6 +119,7 @@ MeshPtr Node::mesh(double edgeLength, const Progress& progress) const
       return mesh;
     }
   }
+  this->prepare(progress);
   auto mesh = std::make_shared<const TriangleMesh>(this->makeMesh(length, progress));
   if (meshes.kept.size() == kKeptMeshes)
   {
@@ -145,32 +146,6 @@ NodePtr Node::affine(const Affine3& map) const
     return this->shared_from_this();
   }
   return this->makeAffine(map);
-}
-
-bool Node::isFaceted() const
-{
-  const std::vector<NodePtr> children = this->children();
-  return std::any_of(
-    children.begin(), children.end(), [](const NodePtr& child) { return child->isFaceted(); });
-}
-
-NodePtr Node::underBlend() const
-{
-  std::vector<NodePtr> children = this->children();
-  bool changed = false;
-  for (NodePtr& child : children)
-  {
-    NodePtr smooth = child->underBlend();
-    changed = changed || smooth != child;
-    child = std::move(smooth);
-  }
-  return changed ? this->withChildren(std::move(children)) : this->shared_from_this();
-}
-
-NodePtr Node::withChildren(std::vector<NodePtr> children) const
-{
-  static_cast<void>(children);
-  return this->shared_from_this();
 }
 
 } // namespace hybridtree

@@ -51,7 +51,15 @@ public:
   /// Which leaf alone makes the field at p_k: its index in the depth-first order of this tree
   /// (0 .. leafCount() - 1), or -1 where several or none do.
   virtual void sourceLeaf(PointBatch points, std::int32_t* leaf) const = 0;
-  virtual int leafCount() const = 0;
+  virtual int leafCount() const { return 1; }
+
+  /// Nodes above each other, this one included.
+  virtual int depth() const { return 1; }
+
+  /// Makes what the field needs and takes long, such as the mesh of a deformed shape below a blend.
+  /// Otherwise the first query does so, deaf to its caller. mesh() begins with it.
+  /// \throws as mesh().
+  virtual void prepare(const Progress& progress) const { static_cast<void>(progress); }
 
   /// Closure of where the field is not 0. Empty for an empty shape.
   virtual Box3 influenceBounds() const = 0;
@@ -65,7 +73,7 @@ public:
   /// Closed, consistently oriented 2-manifold of the surface, with normals; empty when there is no
   /// surface. Kept: the second call with the same length gives the same object.
   /// \param edgeLength target length, world units; 0 means defaultEdgeLength().
-  /// \throws InvalidParameter, TooLarge, Cancelled.
+  /// \throws InvalidParameter, InvalidGeometry, TooLarge, Cancelled.
   MeshPtr mesh(double edgeLength = 0.0, const Progress& progress = Progress::none()) const;
 
   /// Diagonal of surfaceBounds() / 100.
@@ -78,7 +86,7 @@ public:
 
   /// This tree as it has to be below a blend: Booleans of automatic form take their smooth form
   /// ([HT] 4.4). The same object where nothing changes.
-  virtual NodePtr underBlend() const;
+  virtual NodePtr underBlend() const { return this->shared_from_this(); }
 
   /// Name in the serialised tree, everything but the children needed to make the node again, and
   /// the children in order.
@@ -92,7 +100,7 @@ public:
 
   /// True when a triangle mesh shapes the field somewhere, so that its gradient jumps from facet to
   /// facet.
-  virtual bool isFaceted() const;
+  virtual bool isFaceted() const { return false; }
 
   /// For single leaves with a level of +-T, in the mean over directions where a map has stretched
   /// them: what keeps their field when only their mesh is left ([HT] 4.5.2). Empty for every other
@@ -108,9 +116,6 @@ protected:
 
   /// \pre map is finite and invertible.
   virtual NodePtr makeAffine(const Affine3& map) const = 0;
-
-  /// A copy of this node over other children. Called only on nodes that have any.
-  virtual NodePtr withChildren(std::vector<NodePtr> children) const;
 
 private:
   struct Meshes;

@@ -45,7 +45,6 @@ public:
 
   /// 0 within the influence, -1 beyond.
   void sourceLeaf(PointBatch points, std::int32_t* leaf) const override;
-  int leafCount() const override { return 1; }
 
   Box3 influenceBounds() const override;
   Box3 surfaceBounds() const override;

@@ -182,7 +182,8 @@ bool isOneToOne(const SpaceWarp& warp, const TriangleMesh& mesh, double edgeLeng
 } // namespace
 
 WarpedNode::WarpedNode(NodePtr child, SpaceWarpPtr warp)
-  : child_(std::move(child))
+  : Operator({ std::move(child) })
+  , child_(this->child().get())
   , warp_(std::move(warp))
   , influenceBounds_(warp_->imageBounds(child_->influenceBounds()))
   , surfaceBounds_(warp_->imageBounds(child_->surfaceBounds()))

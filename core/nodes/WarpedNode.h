@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "core/nodes/Node.h"
+#include "core/nodes/Operator.h"
 #include "core/nodes/SpaceWarp.h"
 
 namespace hybridtree
@@ -11,7 +11,7 @@ namespace hybridtree
 /// grad f = J_{w^-1}^T grad f_A, membership that of A at w^-1(p). 0 where nothing is mapped to.
 ///
 /// What all such nodes share; the subclass adds its kind, its parameters and its affine image.
-class WarpedNode : public Node
+class WarpedNode : public Operator
 {
 public:
   void field(PointBatch points, double* value) const override;
@@ -20,17 +20,14 @@ public:
   FieldSourcePtr restrictedTo(const Box3& box) const override;
   void membership(PointBatch points, std::int8_t* side) const override;
   void sourceLeaf(PointBatch points, std::int32_t* leaf) const override;
-  int leafCount() const override { return child_->leafCount(); }
   Box3 influenceBounds() const override { return influenceBounds_; }
   Box3 surfaceBounds() const override { return surfaceBounds_; }
   bool isNegative() const override { return child_->isNegative(); }
-  std::vector<NodePtr> children() const override { return { child_ }; }
 
 protected:
   /// \pre both not null.
   WarpedNode(NodePtr child, SpaceWarpPtr warp);
 
-  const NodePtr& child() const { return child_; }
   const SpaceWarp& warp() const { return *warp_; }
 
   /// The child's mesh, refined where the warp stretches it, mapped, and its triangles mended. Where
@@ -38,7 +35,7 @@ protected:
   TriangleMesh makeMesh(double edgeLength, const Progress& progress) const override;
 
 private:
-  NodePtr child_;
+  const Node* child_;
   SpaceWarpPtr warp_;
   Box3 influenceBounds_;
   Box3 surfaceBounds_;

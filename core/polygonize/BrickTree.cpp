@@ -122,9 +122,9 @@ BrickTree::Blocks BrickTree::halve(
   parallelFor(parents.size(), kBlocksPerTask,
     [&](std::size_t begin, std::size_t end)
     {
-      progress.check();
       for (std::size_t k = 8 * begin; k < 8 * end; ++k)
       {
+        progress.check(); // a block may take long where thousands of leaves overlap
         Index3 brick = parents[k / 8].brick;
         for (int axis = 0; axis < 3; ++axis)
         {

@@ -70,9 +70,9 @@ private:
     parallelFor(count, kBricksPerTask,
       [&](std::size_t from, std::size_t to)
       {
-        part.check();
         for (std::size_t k = from; k < to; ++k)
         {
+          part.check();
           body(bricks_[first + k], first + k);
         }
         part.report(static_cast<double>(done += to - from) / static_cast<double>(count));

@@ -21,10 +21,6 @@ using Json = nlohmann::ordered_json;
 constexpr const char* kFormat = "HybridTree";
 constexpr int kVersion = 1;
 
-// Queries recurse along the depth, and take time in proportion to the leaves.
-constexpr int kMaxDepth = 1000;
-constexpr std::int64_t kMaxLeaves = 1'000'000;
-
 Json toJson(const Parameters& parameters)
 {
   Json object = Json::object();
@@ -169,13 +165,10 @@ private:
       }
       parameters = parametersFrom(entry["parameters"]);
     }
-    int depth = 1;
-    const std::vector<NodePtr> children = this->childrenFrom(entry, depth);
-    nodes_.push_back(makeNode(kind, parameters, children, lookup_));
-    depths_.push_back(depth);
+    nodes_.push_back(makeNode(kind, parameters, this->childrenFrom(entry), lookup_));
   }
 
-  std::vector<NodePtr> childrenFrom(const Json& entry, int& depth) const
+  std::vector<NodePtr> childrenFrom(const Json& entry) const
   {
     std::vector<NodePtr> children;
     if (!entry.contains("children"))
@@ -187,29 +180,19 @@ private:
     {
       throw InvalidText("Its \"children\" are not a list.");
     }
-    std::int64_t leaves = 0;
     for (const Json& item : list)
     {
       if (!item.is_number_unsigned() || item.get<std::uint64_t>() >= nodes_.size())
       {
         throw InvalidText("Its child " + item.dump() + " is not the index of a node before it.");
       }
-      const std::size_t index = item.get<std::size_t>();
-      children.push_back(nodes_[index]);
-      leaves += nodes_[index]->leafCount();
-      depth = std::max(depth, depths_[index] + 1);
-      if (depth > kMaxDepth || leaves > kMaxLeaves)
-      {
-        throw InvalidText("It has more than " + std::to_string(kMaxDepth) +
-          " nodes above each other or more than " + std::to_string(kMaxLeaves) + " leaves.");
-      }
+      children.push_back(nodes_[item.get<std::size_t>()]);
     }
     return children;
   }
 
   MeshLookup lookup_;
   std::vector<NodePtr> nodes_;
-  std::vector<int> depths_;
 };
 
 const Json& tableOf(const Json& document)

@@ -144,14 +144,14 @@ TEST(Serialize, ChainsThatExplodeAreRefused)
   {
     nodes += boolean + std::to_string(level) + "," + std::to_string(level) + "]}";
   }
-  expectComplaint(headed(nodes), "1000000 leaves");
+  expectComplaint(headed(nodes), "1048576 leaves");
 
   nodes = kPoint;
   for (int level = 0; level < 1500; ++level)
   {
     nodes += boolean + "0," + std::to_string(level) + "]}";
   }
-  expectComplaint(headed(nodes), "1000 nodes above each other");
+  expectComplaint(headed(nodes), "1001 nodes above each other");
   expectComplaint(std::string(200000, '['), "JSON");
   expectComplaint(headed(kPoint + "," + std::string(5000, '[') + std::string(5000, ']')), "kind");
 }
