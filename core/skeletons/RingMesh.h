@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "core/geometry/AxisFrame.h"
 #include "core/mesh/TriangleMesh.h"
 #include "core/skeletons/Meridian.h"
 
@@ -9,14 +10,8 @@
 namespace hybridtree
 {
 
-/// Where a surface of revolution stands. `axis` and `side` are unit vectors at right angles; the
-/// first point of an unshifted ring is towards `side`.
-struct RevolvedFrame
-{
-  Vec3 origin = Vec3::Zero();
-  Vec3 axis = Vec3::UnitZ();
-  Vec3 side = Vec3::UnitX();
-};
+/// Where a surface of revolution stands: the first point of an unshifted ring is towards `side`.
+using RevolvedFrame = AxisFrame;
 
 /// One ring of points around the axis. Point k stands at the angle (2k + shift) pi / count. A ring
 /// on the axis is one point.

@@ -4,6 +4,11 @@
 #include "core/base/Error.h"
 #include "core/skeletons/Box.h"
 #include "core/skeletons/Circle.h"
+#include "core/skeletons/Cone.h"
+#include "core/skeletons/ConeSphere.h"
+#include "core/skeletons/Cylinder.h"
+#include "core/skeletons/Disc.h"
+#include "core/skeletons/HollowCylinder.h"
 #include "core/skeletons/Point.h"
 #include "core/skeletons/Segment.h"
 
@@ -24,6 +29,11 @@ constexpr Maker kMakers[] = {
   { "segment", &SegmentSkeleton::fromParameters },
   { "circle", &CircleSkeleton::fromParameters },
   { "box", &BoxSkeleton::fromParameters },
+  { "disc", &DiscSkeleton::fromParameters },
+  { "cylinder", &CylinderSkeleton::fromParameters },
+  { "hollow_cylinder", &HollowCylinderSkeleton::fromParameters },
+  { "cone", &ConeSkeleton::fromParameters },
+  { "cone_sphere", &ConeSphereSkeleton::fromParameters },
 };
 
 } // namespace

@@ -24,6 +24,7 @@ struct OffsetCase
   double radius;
   double volume;
   int genus = 0;
+  int tips = 0; // points where the surface has no tangent plane though the radius is not 0
 };
 
 double sphere(double r)
@@ -36,6 +37,81 @@ double roundedBox(const Vec3& l, double r)
 {
   return l.prod() + 2.0 * r * (l[0] * l[1] + l[1] * l[2] + l[2] * l[0]) +
     EIGEN_PI * r * r * l.sum() + sphere(r);
+}
+
+// Cylinder and cone frusta, swept by the ball: their volume, and what Steiner adds to it.
+double roundedCone(double h, double a, double b, double r)
+{
+  const double slant = std::hypot(h, a - b);
+  const double tilt = std::atan2(a - b, h);
+  const double area = EIGEN_PI * ((a + b) * slant + a * a + b * b);
+  // Half the sum over the edges of length times angle between the normals beside, and pi h more
+  // for the turn of the side itself.
+  const double right = 0.5 * EIGEN_PI;
+  const double mean = EIGEN_PI * (a * (right + tilt) + b * (right - tilt) + h);
+  return EIGEN_PI * h * (a * a + a * b + b * b) / 3.0 + area * r + mean * r * r + sphere(r);
+}
+
+// Two balls without their caps and the frustum between.
+double hullOfBalls(double length, double a, double b)
+{
+  const double s = (a - b) / length;
+  const double c = std::sqrt(1.0 - s * s);
+  const auto cap = [](double r, double h) { return EIGEN_PI * h * h * (3.0 * r - h) / 3.0; };
+  const double height = length - (a - b) * s;
+  return cap(a, a + a * s) + cap(b, b - b * s) +
+    EIGEN_PI * height * c * c * (a * a + a * b + b * b) / 3.0;
+}
+
+// A tube with wall, swept: by Pappus, the area of its section times the way of the centre.
+double roundedTube(double h, double outer, double inner, double r)
+{
+  const double w = outer - inner;
+  const double area = w * h + 2.0 * r * (w + h) + EIGEN_PI * r * r;
+  return area * EIGEN_PI * (outer + inner);
+}
+
+void addRound(std::vector<OffsetCase>& cases, Random& random)
+{
+  const Vec3 a = random.direction();
+  const Vec3 across = random.direction();
+  const auto add = [&](const char* name, const SkeletonPtr& skeleton, double r, double volume,
+                     int genus = 0) {
+    cases.push_back({ name, skeleton, r, volume, genus });
+  };
+  for (const double r : { 0.15, 0.4 })
+  {
+    const double plate = 2.0 * r * EIGEN_PI + EIGEN_PI * EIGEN_PI * r * r + sphere(r);
+    add("disc", std::make_shared<DiscSkeleton>(a, across, 1.0), r, plate);
+  }
+  for (const double r : { 0.0, 0.1, 0.4 })
+  {
+    add("cylinder", std::make_shared<CylinderSkeleton>(a, a + 1.3 * across, 0.5), r,
+      roundedCone(1.3, 0.5, 0.5, r));
+    add("cone", std::make_shared<ConeSkeleton>(a, a + 1.2 * across, 0.4, 0.7), r,
+      roundedCone(1.2, 0.4, 0.7, r));
+    add("pointed cone", std::make_shared<ConeSkeleton>(a, a + 0.8 * across, 0.6, 0.0), r,
+      roundedCone(0.8, 0.6, 0.0, r));
+    add("tube", std::make_shared<HollowCylinderSkeleton>(a, a + 1.1 * across, 1.0, 0.6), r,
+      roundedTube(1.1, 1.0, 0.6, r), 1);
+    add("cone sphere", std::make_shared<ConeSphereSkeleton>(a, a + 1.1 * across, 0.6, 0.2), r,
+      hullOfBalls(1.1, 0.6 + r, 0.2 + r));
+  }
+  // The bore closed: the rounded cylinder less what the dimples leave out, a solid of revolution
+  // between the half circle over the inner rim and its top.
+  const double bore = 0.2;
+  const double r = 0.3;
+  const double top = std::sqrt(r * r - bore * bore);
+  const double angle = std::asin(bore / r);
+  // Volume under the arc over radial < bore, by shells.
+  const double under = 2.0 * EIGEN_PI *
+    (0.5 * bore * (bore * top + r * r * angle) - (r * r * r - top * top * top) / 3.0);
+  add("tube with closed bore",
+    std::make_shared<HollowCylinderSkeleton>(a, a + 1.1 * across, 0.8, bore), r,
+    roundedCone(1.1, 0.8, 0.8, r) - 2.0 * (EIGEN_PI * bore * bore * r - under));
+  cases.back().tips = 2;
+  add("ball of cone sphere", std::make_shared<ConeSphereSkeleton>(a, a + 0.1 * across, 0.2, 0.5),
+    0.3, sphere(0.8));
 }
 
 std::vector<OffsetCase> offsetCases()
@@ -64,6 +140,7 @@ std::vector<OffsetCase> offsetCases()
     add("rounded box", std::make_shared<BoxSkeleton>(random.direction(), l, random.rotation()), 0.3,
       roundedBox(l, 0.3));
   }
+  addRound(cases, random);
   Mat3 mirror = random.rotation();
   mirror.col(2) *= -1.0;
   add("mirrored box", std::make_shared<BoxSkeleton>(random.direction(), Vec3(1, 2, 0.7), mirror),
@@ -104,6 +181,7 @@ TEST(OffsetMesh, PointsAndNormalsAreExact)
     std::vector<double> distance(points.size());
     VectorList gradient(points.size());
     item.skeleton->distanceAndGradient(points, distance.data(), gradient);
+    int differing = 0;
     ASSERT_EQ(mesh.normals.size(), mesh.points.size());
     for (std::size_t k = 0; k < points.size(); ++k)
     {
@@ -111,15 +189,16 @@ TEST(OffsetMesh, PointsAndNormalsAreExact)
       EXPECT_NEAR(mesh.normals[k].norm(), 1.0, 1e-13) << item.name;
       if (item.radius > 0.0)
       {
-        EXPECT_LE((mesh.normals[k] - gradient[k]).norm(), 1e-11) << item.name;
+        differing += (mesh.normals[k] - gradient[k]).norm() > 1e-11;
       }
     }
-    // The sharp box, too: the normals of the points look to the side of the triangles around them.
+    EXPECT_EQ(differing, item.tips) << item.name;
+    // Sharp shapes, too: the normals of the points look to the side of the triangles around them.
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     {
       for (const std::int32_t corner : mesh.triangles[t])
       {
-        EXPECT_GT(areaNormal(mesh, t).normalized().dot(mesh.normals[corner]), 0.55) << item.name;
+        EXPECT_GT(areaNormal(mesh, t).normalized().dot(mesh.normals[corner]), 0.4) << item.name;
       }
     }
   }
@@ -203,6 +282,11 @@ TEST(OffsetMesh, IsSymmetricInThePlanesOfTheShape)
     { std::make_shared<CircleSkeleton>(Vec3::Zero(), Vec3::UnitZ(), 1.0), 0.7 },
     { std::make_shared<BoxSkeleton>(Vec3::Zero(), Vec3(1, 2, 0.5)), 0.2 },
     { std::make_shared<BoxSkeleton>(Vec3::Zero(), Vec3(1, 2, 0.5)), 0.0 },
+    { std::make_shared<DiscSkeleton>(Vec3::Zero(), Vec3::UnitZ(), 1.0), 0.2 },
+    { std::make_shared<CylinderSkeleton>(-Vec3::UnitY(), Vec3::UnitY(), 0.6), 0.0 },
+    { std::make_shared<CylinderSkeleton>(-Vec3::UnitY(), Vec3::UnitY(), 0.6), 0.2 },
+    { std::make_shared<HollowCylinderSkeleton>(-Vec3::UnitX(), Vec3::UnitX(), 0.8, 0.4), 0.2 },
+    { std::make_shared<HollowCylinderSkeleton>(-Vec3::UnitX(), Vec3::UnitX(), 0.8, 0.1), 0.2 },
   };
   for (const auto& [skeleton, radius] : shapes)
   {
@@ -258,6 +342,8 @@ TEST(OffsetMesh, TooManyTrianglesAreRefusedWithTheirNumber)
     { std::make_shared<CircleSkeleton>(Vec3::Zero(), Vec3::UnitZ(), 1.0), 0.2 },
     { std::make_shared<BoxSkeleton>(Vec3::Zero(), Vec3(1, 2, 0.5)), 0.2 },
     { std::make_shared<BoxSkeleton>(Vec3::Zero(), Vec3(1, 2, 0.5)), 0.0 },
+    { std::make_shared<DiscSkeleton>(Vec3::Zero(), Vec3::UnitZ(), 1.0), 0.2 },
+    { std::make_shared<ConeSkeleton>(Vec3::Zero(), Vec3(1, 0, 0), 0.3, 0.0), 0.0 },
   };
   for (const auto& [skeleton, radius] : shapes)
   {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tests/core/skeletons/SkeletonCases.h"
 
+#include "tests/core/skeletons/RoundCases.h"
+
 namespace hybridtree::test
 {
 namespace
@@ -100,6 +102,10 @@ std::vector<SkeletonCase> skeletonCases()
   Mat3 mirror = random.rotation();
   mirror.col(1) *= -1.0;
   named(boxCase(Vec3(0, 1, 0), Vec3(1, 2, 0.5), mirror), "mirrored box");
+  for (const RoundCase& round : roundCases())
+  {
+    cases.push_back(withSamples(round));
+  }
   return cases;
 }
 

@@ -3,6 +3,11 @@
 
 #include "core/skeletons/Box.h"
 #include "core/skeletons/Circle.h"
+#include "core/skeletons/Cone.h"
+#include "core/skeletons/ConeSphere.h"
+#include "core/skeletons/Cylinder.h"
+#include "core/skeletons/Disc.h"
+#include "core/skeletons/HollowCylinder.h"
 #include "core/skeletons/Point.h"
 #include "core/skeletons/Segment.h"
 #include "tests/support/Random.h"
