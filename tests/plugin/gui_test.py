@@ -4,10 +4,10 @@
 Tolerant on purpose: another OpenGL shades a little otherwise, a missing or dented shape does not pass.
 """
 import os
-import subprocess
 import sys
 import tempfile
 
+import screen
 from vtkmodules.vtkImagingCore import vtkImageDifference
 from vtkmodules.vtkIOImage import vtkPNGReader
 
@@ -15,8 +15,6 @@ FOLDER = os.path.dirname(os.path.abspath(__file__))
 BASELINE = os.path.join(FOLDER, "baselines", "blend.png")
 # Summed over pixels, 1 for black against white, after 2 pixels of shift are forgiven.
 ALLOWED = 50.0
-# A welcome dialog would wait for an answer that nobody gives.
-SETTINGS = '{"settings":{"GeneralSettings":{"ShowWelcomeDialog":0}}}'
 
 
 def read(path):
@@ -28,16 +26,9 @@ def read(path):
 
 def main():
     with tempfile.TemporaryDirectory() as home:
-        configuration = os.path.join(home, "ParaView")
-        os.makedirs(configuration)
-        for name in ("ParaView-UserSettings.json", "ParaView5.11.0-UserSettings.json"):
-            with open(os.path.join(configuration, name), "w") as file:
-                file.write(SETTINGS)
         picture = os.environ.get("HYBRIDTREE_PICTURE", os.path.join(home, "gui.png"))
-        environment = dict(os.environ, HOME=home, XDG_CONFIG_HOME=home, XDG_RUNTIME_DIR=home,
+        screen.run_paraview(sys.argv[1], ["--script=" + os.path.join(FOLDER, "gui.py")], home,
             HYBRIDTREE_PICTURE=picture)
-        subprocess.run([sys.argv[1], "-a", "-s", "-screen 0 1280x1024x24", "paraview",
-            "--script=" + os.path.join(FOLDER, "gui.py")], env=environment, timeout=240, check=True)
 
         difference = vtkImageDifference()
         readers = read(picture), read(BASELINE)
