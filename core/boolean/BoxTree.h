@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "core/base/Types.h"
+#include "core/mesh/TriangleMesh.h"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+namespace hybridtree
+{
+
+/// Boxes around the triangles of a mesh, in groups of eight, and groups of groups: a complete tree
+/// over the triangles along a space-filling curve. Made for two trees to be walked together, and
+/// in a tenth of the time that a MeshBvh takes, which is tighter and answers distances.
+class BoxTree
+{
+public:
+  static constexpr std::size_t kWidth = 8;
+
+  struct Box
+  {
+    std::array<double, 3> lower;
+    std::array<double, 3> upper;
+
+    static Box nothing();
+    void extend(const Vec3& point);
+    void extend(const Box& other);
+    bool meets(const Box& other) const;
+  };
+
+  /// The boxes of the children of one node.
+  struct Children
+  {
+    std::array<std::array<double, kWidth>, 3> lower;
+    std::array<std::array<double, kWidth>, 3> upper;
+
+    Box box(std::size_t child) const;
+    void set(std::size_t child, const Box& box);
+    /// Bit k: child k meets the box. \pre k < count.
+    unsigned meeting(const Box& box, std::size_t count) const;
+  };
+
+  /// A node of level 0 is a group of up to eight triangles; one of level l > 0 has up to eight
+  /// children of level l - 1.
+  struct Node
+  {
+    int level;
+    std::uint32_t index;
+    Box box;
+  };
+
+  /// \pre mesh has triangles; it is not kept.
+  explicit BoxTree(const TriangleMesh& mesh);
+
+  Node root() const;
+  const Box& bounds() const { return bounds_; }
+
+  /// Calls visit(child) for the children of a node that meet a box. \pre node.level > 0.
+  template <class Visit>
+  void forEachChild(const Node& node, const Box& box, Visit&& visit) const
+  {
+    const Children& children = levels_[std::size_t(node.level - 1)][node.index];
+    const std::size_t first = node.index * kWidth;
+    unsigned meeting =
+      children.meeting(box, std::min(kWidth, this->nodeCount(node.level - 1) - first));
+    for (std::size_t k = 0; meeting != 0; ++k, meeting >>= 1)
+    {
+      if ((meeting & 1) != 0)
+      {
+        visit(Node{ node.level - 1, std::uint32_t(first + k), children.box(k) });
+      }
+    }
+  }
+
+  /// The triangles of a node of level 0.
+  const std::int32_t* begin(const Node& node) const { return &order_[node.index * kWidth]; }
+  const std::int32_t* end(const Node& node) const
+  {
+    return order_.data() + std::min(order_.size(), (node.index + std::size_t(1)) * kWidth);
+  }
+
+private:
+  std::size_t nodeCount(int level) const;
+
+  std::vector<std::int32_t> order_;
+  std::vector<std::vector<Children>> levels_; ///< [l]: of the nodes of level l + 1
+  Box bounds_;
+};
+
+} // namespace hybridtree

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/boolean/MeshOperand.h"
+
+#include "core/base/Error.h"
+#include "core/base/Parallel.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <unordered_map>
+
+namespace hybridtree
+{
+namespace
+{
+
+constexpr std::size_t kGrain = 1 << 15;
+constexpr double kLargest = 1e60; // six factors of it are still a double
+constexpr double kUnit = double(1 << 20);
+
+std::uint64_t mixed(std::uint64_t low, std::uint64_t high)
+{
+  std::uint64_t z = (low << 32 | high) * 0x9e3779b97f4a7c15ull;
+  z = (z ^ (z >> 32)) * 0xd6e8feb86659fd93ull;
+  return z ^ (z >> 32);
+}
+
+// Whether every edge is run along as often one way as the other: by the sum of a 64 bit hash of
+// each edge, which another mesh has with a chance of one in 2^64.
+bool isClosed(const std::vector<Triangle>& triangles)
+{
+  std::atomic<std::uint64_t> sum{ 0 };
+  parallelFor(triangles.size(), kGrain,
+    [&](std::size_t begin, std::size_t end)
+    {
+      std::uint64_t part = 0;
+      for (std::size_t t = begin; t < end; ++t)
+      {
+        for (std::size_t k = 0; k < 3; ++k)
+        {
+          const std::uint64_t from = std::uint64_t(triangles[t][k]);
+          const std::uint64_t to = std::uint64_t(triangles[t][(k + 1) % 3]);
+          part += from < to ? mixed(from, to) : -mixed(to, from);
+        }
+      }
+      sum += part;
+    });
+  return sum == 0;
+}
+
+using Edge = std::array<std::int32_t, 2>;
+
+// The edges that run one way more often than the other, turned, as often as they are missing.
+std::vector<Edge> missingEdges(const std::vector<Triangle>& triangles)
+{
+  struct Use
+  {
+    std::int32_t low, high, direction;
+  };
+  std::vector<Use> uses;
+  uses.reserve(3 * triangles.size());
+  for (const Triangle& corner : triangles)
+  {
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      const std::int32_t from = corner[k];
+      const std::int32_t to = corner[(k + 1) % 3];
+      uses.push_back({ std::min(from, to), std::max(from, to), from < to ? 1 : -1 });
+    }
+  }
+  const auto before = [](const Use& a, const Use& b)
+  { return a.low != b.low ? a.low < b.low : a.high < b.high; };
+  std::sort(uses.begin(), uses.end(), before);
+  std::vector<Edge> missing;
+  for (std::size_t begin = 0, end = 0; begin < uses.size(); begin = end)
+  {
+    int sum = 0;
+    for (; end < uses.size() && !before(uses[begin], uses[end]); ++end)
+    {
+      sum += uses[end].direction;
+    }
+    const Edge edge = sum > 0 ? Edge{ uses[begin].high, uses[begin].low }
+                              : Edge{ uses[begin].low, uses[begin].high };
+    missing.insert(missing.end(), std::size_t(std::abs(sum)), edge);
+  }
+  return missing;
+}
+
+// A boundary has none itself: as many edges leave a point as arrive, so they make loops. Each is
+// cut off where it comes to a point for the second time.
+std::vector<std::vector<std::int32_t>> loopsOf(const std::vector<Edge>& edges)
+{
+  std::unordered_map<std::int32_t, std::vector<std::int32_t>> leaving;
+  for (auto edge = edges.rbegin(); edge != edges.rend(); ++edge)
+  {
+    leaving[(*edge)[0]].push_back((*edge)[1]);
+  }
+  std::vector<std::vector<std::int32_t>> loops;
+  for (const Edge& edge : edges)
+  {
+    std::vector<std::int32_t> way{ edge[0] };
+    std::unordered_map<std::int32_t, std::size_t> place{ { edge[0], 0 } };
+    for (std::int32_t at = edge[0]; !leaving[at].empty();)
+    {
+      std::vector<std::int32_t>& next = leaving[at];
+      at = next.back();
+      next.pop_back();
+      const auto [met, isNew] = place.try_emplace(at, way.size());
+      if (isNew)
+      {
+        way.push_back(at);
+        continue;
+      }
+      const auto first = way.begin() + std::ptrdiff_t(met->second);
+      loops.emplace_back(first, way.end());
+      std::for_each(first + 1, way.end(), [&](std::int32_t point) { place.erase(point); });
+      way.erase(first + 1, way.end());
+    }
+  }
+  return loops;
+}
+
+MeshPtr closedMesh(const TriangleMesh& mesh)
+{
+  auto closed = std::make_shared<TriangleMesh>();
+  closed->points = mesh.points;
+  closed->triangles = mesh.triangles;
+  for (const std::vector<std::int32_t>& loop : loopsOf(missingEdges(mesh.triangles)))
+  {
+    Vec3 middle = Vec3::Zero();
+    double length = 0.0;
+    for (std::size_t k = 0; k < loop.size(); ++k)
+    {
+      const Vec3& from = mesh.points[std::size_t(loop[k])];
+      const Vec3& to = mesh.points[std::size_t(loop[(k + 1) % loop.size()])];
+      middle += 0.5 * (from + to) * (to - from).norm();
+      length += (to - from).norm();
+    }
+    const std::int32_t center = std::int32_t(closed->points.size());
+    if (loop.size() == 3)
+    {
+      closed->triangles.push_back({ loop[0], loop[1], loop[2] });
+      continue;
+    }
+    closed->points.push_back(length > 0.0 ? Vec3(middle / length) : mesh.points[loop[0]]);
+    for (std::size_t k = 0; k < loop.size(); ++k)
+    {
+      closed->triangles.push_back({ center, loop[k], loop[(k + 1) % loop.size()] });
+    }
+  }
+  return closed;
+}
+
+void checkCoordinates(const TriangleMesh& mesh)
+{
+  for (std::size_t k = 0; k < mesh.points.size(); ++k)
+  {
+    if (!(mesh.points[k].cwiseAbs().maxCoeff() <= kLargest))
+    {
+      throw InvalidGeometry("Point " + std::to_string(k) +
+        " of an operand has a coordinate that is above 1e60 or not finite. Scale the model, or "
+        "repair the point.");
+    }
+  }
+}
+
+} // namespace
+
+MeshOperand::MeshOperand(MeshPtr mesh) : original_(std::move(mesh)), mesh_(original_)
+{
+  checkCoordinates(*original_);
+  if (!isClosed(original_->triangles))
+  {
+    mesh_ = closedMesh(*original_);
+  }
+  if (!mesh_->empty())
+  {
+    tree_ = std::make_unique<const BoxTree>(*mesh_);
+  }
+}
+
+Vec3 MeshOperand::outward(std::int32_t vertex) const
+{
+  std::call_once(once_, [this] { this->makeOutward(); });
+  return outward_[std::size_t(vertex)];
+}
+
+void MeshOperand::makeOutward() const
+{
+  outward_.assign(mesh_->points.size(), Vec3::Zero());
+  for (std::size_t t = 0; t < mesh_->triangles.size(); ++t)
+  {
+    const Triangle& corner = mesh_->triangles[t];
+    const Vec3 normal = areaNormal(*mesh_, t).normalized();
+    if (!normal.allFinite())
+    {
+      continue;
+    }
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      const Vec3& apex = mesh_->points[std::size_t(corner[k])];
+      const Vec3 a = mesh_->points[std::size_t(corner[(k + 1) % 3])] - apex;
+      const Vec3 b = mesh_->points[std::size_t(corner[(k + 2) % 3])] - apex;
+      outward_[std::size_t(corner[k])] += std::atan2(a.cross(b).norm(), a.dot(b)) * normal;
+    }
+  }
+  for (Vec3& n : outward_)
+  {
+    const double length = n.norm();
+    n = length > 0.0 ? Vec3((n * (kUnit / length)).array().round()) : Vec3::Zero();
+  }
+}
+
+} // namespace hybridtree

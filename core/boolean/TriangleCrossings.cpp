@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/boolean/TriangleCrossings.h"
+
+#include "core/base/Error.h"
+#include "core/base/Parallel.h"
+
+#include <utility>
+
+namespace hybridtree
+{
+namespace
+{
+
+constexpr std::size_t kTasks = 1024;
+
+struct NodePair
+{
+  BoxTree::Node a;
+  BoxTree::Node b;
+
+  bool isLeaf() const { return a.level == 0 && b.level == 0; }
+};
+
+// Opens the node of the higher level.
+template <class Visit>
+void forEachBelow(const BoxTree& treeA, const BoxTree& treeB, const NodePair& pair, Visit&& visit)
+{
+  if (pair.a.level >= pair.b.level)
+  {
+    treeA.forEachChild(pair.a, pair.b.box,
+      [&](const BoxTree::Node& child) {
+        visit(NodePair{ child, pair.b });
+      });
+  }
+  else
+  {
+    treeB.forEachChild(pair.b, pair.a.box,
+      [&](const BoxTree::Node& child) {
+        visit(NodePair{ pair.a, child });
+      });
+  }
+}
+
+// Two triangles, and what is known of how they lie to each other.
+class TrianglePair
+{
+public:
+  TrianglePair(const MeshOperand& a, const MeshOperand& b, const PerturbedPredicates& predicates)
+    : operand_{ &a, &b }, predicates_(predicates)
+  {
+  }
+
+  /// Whether they cross; if so the segment is filled in.
+  bool cross(std::int32_t triangleA, std::int32_t triangleB, Segment& segment)
+  {
+    triangle_ = { triangleA, triangleB };
+    for (std::size_t mesh = 0; mesh < 2; ++mesh)
+    {
+      const MeshOperand& operand = *operand_[mesh];
+      corner_[mesh] = operand.mesh().triangles[std::size_t(triangle_[mesh])];
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        site_[mesh][k] = siteOf(operand, corner_[mesh][k], mesh == 1);
+      }
+    }
+    if (!this->straddles(0) || !this->straddles(1))
+    {
+      return false;
+    }
+    this->compareEdges();
+    return this->collect(segment);
+  }
+
+private:
+  // Whether a triangle has corners on both sides of the other's plane.
+  bool straddles(std::size_t mesh)
+  {
+    const std::array<Site, 3>& plane = site_[1 - mesh];
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      side_[mesh][k] = predicates_.side(plane[0], plane[1], plane[2], site_[mesh][k]);
+    }
+    return side_[mesh][0] != side_[mesh][1] || side_[mesh][1] != side_[mesh][2];
+  }
+
+  bool isSplit(std::size_t mesh, std::size_t edge) const
+  {
+    return side_[mesh][edge] != side_[mesh][(edge + 1) % 3];
+  }
+
+  // How the edges of one turn around those of the other, where it matters.
+  void compareEdges()
+  {
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      for (std::size_t j = 0; j < 3; ++j)
+      {
+        turn_[i][j] = this->isSplit(0, i) || this->isSplit(1, j)
+          ? predicates_.side(site_[0][i], site_[0][(i + 1) % 3], site_[1][j], site_[1][(j + 1) % 3])
+          : 0;
+      }
+    }
+  }
+
+  bool meets(std::size_t mesh, std::size_t edge) const
+  {
+    if (!this->isSplit(mesh, edge))
+    {
+      return false;
+    }
+    const auto turn = [&](std::size_t k) { return mesh == 0 ? turn_[edge][k] : turn_[k][edge]; };
+    return turn(0) == turn(1) && turn(1) == turn(2);
+  }
+
+  bool collect(Segment& segment) const
+  {
+    int starts = 0;
+    int ends = 0;
+    for (std::size_t mesh = 0; mesh < 2; ++mesh)
+    {
+      for (std::size_t edge = 0; edge < 3; ++edge)
+      {
+        if (!this->meets(mesh, edge))
+        {
+          continue;
+        }
+        // Into A's triangle goes what comes over an edge that runs inward through B; into B's, one
+        // that runs outward through A.
+        const bool outside = side_[mesh][edge] > 0;
+        const bool isStart = outside == (mesh == 0);
+        (isStart ? segment.start : segment.end) = this->makeEnd(mesh, edge, outside);
+        ++(isStart ? starts : ends);
+      }
+    }
+    if (starts == 0 && ends == 0)
+    {
+      return false;
+    }
+    if (starts != 1 || ends != 1)
+    {
+      throw InvalidGeometry("Triangle " + std::to_string(triangle_[0]) +
+        " of the first mesh and triangle " + std::to_string(triangle_[1]) +
+        " of the second lie so that their crossing cannot be told. Move one mesh a little.");
+    }
+    segment.triangle[0] = triangle_[0];
+    segment.triangle[1] = triangle_[1];
+    return true;
+  }
+
+  SegmentEnd makeEnd(std::size_t mesh, std::size_t edge, bool outside) const
+  {
+    const std::int32_t from = corner_[mesh][edge];
+    const std::int32_t to = corner_[mesh][(edge + 1) % 3];
+    return { std::min(from, to), std::max(from, to), triangle_[mesh], triangle_[1 - mesh],
+      std::int8_t(mesh), std::int8_t(edge), from < to, outside == (from < to) };
+  }
+
+  std::array<const MeshOperand*, 2> operand_;
+  const PerturbedPredicates& predicates_;
+  std::array<std::int32_t, 2> triangle_{};
+  std::array<Triangle, 2> corner_{};
+  std::array<std::array<Site, 3>, 2> site_;
+  std::array<std::array<int, 3>, 2> side_{};
+  std::array<std::array<int, 3>, 3> turn_{};
+};
+
+class Walk
+{
+public:
+  Walk(const MeshOperand& a, const MeshOperand& b, const PerturbedPredicates& predicates,
+    std::vector<Segment>& found)
+    : a_(a), b_(b), pair_(a, b, predicates), found_(found)
+  {
+  }
+
+  void visit(const NodePair& pair)
+  {
+    if (pair.isLeaf())
+    {
+      this->visitTriangles(pair);
+      return;
+    }
+    forEachBelow(a_.tree(), b_.tree(), pair, [this](const NodePair& child) { this->visit(child); });
+  }
+
+private:
+  static std::size_t gather(const MeshOperand& operand, const BoxTree::Node& node,
+    const BoxTree::Box& reach, std::array<std::int32_t, BoxTree::kWidth>& triangles,
+    std::array<BoxTree::Box, BoxTree::kWidth>& boxes)
+  {
+    std::size_t count = 0;
+    for (const std::int32_t* t = operand.tree().begin(node); t != operand.tree().end(node); ++t)
+    {
+      BoxTree::Box box = BoxTree::Box::nothing();
+      for (const std::int32_t vertex : operand.mesh().triangles[std::size_t(*t)])
+      {
+        box.extend(operand.mesh().points[std::size_t(vertex)]);
+      }
+      if (box.meets(reach))
+      {
+        triangles[count] = *t;
+        boxes[count++] = box;
+      }
+    }
+    return count;
+  }
+
+  void visitTriangles(const NodePair& pair)
+  {
+    std::array<std::int32_t, BoxTree::kWidth> trianglesA, trianglesB;
+    std::array<BoxTree::Box, BoxTree::kWidth> boxesA, boxesB;
+    const std::size_t countA = gather(a_, pair.a, pair.b.box, trianglesA, boxesA);
+    const std::size_t countB = countA == 0 ? 0 : gather(b_, pair.b, pair.a.box, trianglesB, boxesB);
+    Segment segment;
+    for (std::size_t i = 0; i < countA; ++i)
+    {
+      for (std::size_t j = 0; j < countB; ++j)
+      {
+        if (boxesA[i].meets(boxesB[j]) && pair_.cross(trianglesA[i], trianglesB[j], segment))
+        {
+          found_.push_back(segment);
+        }
+      }
+    }
+  }
+
+  const MeshOperand& a_;
+  const MeshOperand& b_;
+  TrianglePair pair_;
+  std::vector<Segment>& found_;
+};
+
+// Enough pairs of nodes to share out, by levels.
+std::vector<NodePair> firstPairs(const BoxTree& a, const BoxTree& b)
+{
+  std::vector<NodePair> pairs;
+  if (a.bounds().meets(b.bounds()))
+  {
+    pairs.push_back({ a.root(), b.root() });
+  }
+  for (bool opened = true; opened && pairs.size() < kTasks;)
+  {
+    opened = false;
+    std::vector<NodePair> below;
+    for (const NodePair& pair : pairs)
+    {
+      if (pair.isLeaf())
+      {
+        below.push_back(pair);
+        continue;
+      }
+      opened = true;
+      forEachBelow(a, b, pair, [&](const NodePair& child) { below.push_back(child); });
+    }
+    pairs.swap(below);
+  }
+  return pairs;
+}
+
+} // namespace
+
+Site siteOf(const MeshOperand& operand, std::int32_t vertex, bool second)
+{
+  return { operand.mesh().points[std::size_t(vertex)], vertex, second };
+}
+
+std::vector<Segment> triangleCrossings(const MeshOperand& a, const MeshOperand& b,
+  const PerturbedPredicates& predicates, const Progress& progress)
+{
+  const std::vector<NodePair> pairs = firstPairs(a.tree(), b.tree());
+  std::vector<std::vector<Segment>> found(pairs.size());
+  parallelFor(pairs.size(), 4,
+    [&](std::size_t begin, std::size_t end)
+    {
+      progress.check();
+      for (std::size_t k = begin; k < end; ++k)
+      {
+        Walk(a, b, predicates, found[k]).visit(pairs[k]);
+      }
+    });
+  std::size_t count = 0;
+  for (const std::vector<Segment>& part : found)
+  {
+    count += part.size();
+  }
+  std::vector<Segment> segments;
+  segments.reserve(count);
+  for (const std::vector<Segment>& part : found)
+  {
+    segments.insert(segments.end(), part.begin(), part.end());
+  }
+  return segments;
+}
+
+} // namespace hybridtree

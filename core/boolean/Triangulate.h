@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "core/mesh/TriangleMesh.h"
+
+#include <vector>
+
+namespace hybridtree
+{
+
+/// A corner of a polygon cut out of a triangle, seen in the triangle's plane.
+struct PlanarPoint
+{
+  double x, y;
+  /// Bits 0 to 2: lies on these edges of the triangle. Two points on one edge may not be joined by
+  /// a diagonal: the neighbour across the edge might choose the same.
+  std::uint8_t edges;
+};
+
+/// Triangulates polygons with holes by clipping ears, larger ones then toward Delaunay by flips.
+///
+/// Answers for any loops, for those too that rounding has made touch or cross themselves: every
+/// pair of consecutive points becomes an edge of one triangle, every other edge is one of two.
+/// Keep one per thread: it reuses its memory.
+class Triangulator
+{
+public:
+  using Loop = std::vector<std::int32_t>;
+
+  /// \param points in the plane. \param loops of points, the outer one first and counter-clockwise,
+  /// holes clockwise. \param triangles appended to, as indices into points.
+  /// \return false, and nothing appended, where no such triangulation is found: fans around new
+  /// points will do.
+  bool triangulate(const std::vector<PlanarPoint>& points, const std::vector<Loop>& loops,
+    std::vector<Triangle>& triangles);
+
+private:
+  int turn(std::int32_t a, std::int32_t b, std::int32_t c) const;
+  bool mayJoin(std::int32_t a, std::int32_t b) const;
+  bool bridge(const std::vector<Loop>& loops);
+  bool isVisible(std::int32_t from, std::int32_t to, const std::vector<Loop>& loops) const;
+  bool clip();
+  bool isEar(std::size_t tip) const;
+  double shape(std::size_t tip) const;
+  std::size_t chooseSmall() const;
+  std::size_t chooseLarge(std::size_t from) const;
+  std::size_t chooseAny() const;
+  bool hasRepeatedEdges() const;
+  void improve();
+
+  const std::vector<PlanarPoint>* points_ = nullptr;
+  Loop polygon_;
+  std::vector<std::size_t> next_, previous_;
+  std::size_t left_ = 0;
+  std::size_t at_ = 0;
+  bool proper_ = true;
+  std::vector<Triangle> made_;
+};
+
+} // namespace hybridtree

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tests/core/boolean/BooleanCases.h"
+
+#include "core/mesh/MeshChecks.h"
+#include "tests/support/TestMeshes.h"
+
+#include <cmath>
+#include <limits>
+
+namespace hybridtree::test
+{
+namespace
+{
+
+TriangleMesh boxAt(double x, double y, double z, double sizeX, double sizeY, double sizeZ)
+{
+  return box(Vec3(x, y, z), Vec3(x + sizeX, y + sizeY, z + sizeZ));
+}
+
+TriangleMesh shiftedByOneUlp(TriangleMesh mesh)
+{
+  for (Vec3& p : mesh.points)
+  {
+    p.x() = std::nextafter(p.x(), 2.0);
+  }
+  return mesh;
+}
+
+TriangleMesh turned90(TriangleMesh mesh)
+{
+  for (Vec3& p : mesh.points)
+  {
+    p = Vec3(-p.y(), p.x(), p.z());
+  }
+  return mesh;
+}
+
+TriangleMesh shiftedByEdge(TriangleMesh mesh)
+{
+  const Triangle& corner = mesh.triangles.front();
+  const Vec3 edge = mesh.points[std::size_t(corner[1])] - mesh.points[std::size_t(corner[0])];
+  return moved(std::move(mesh), Affine3(Eigen::Translation3d(edge)));
+}
+
+// The cap above z = 0.5 pulled out or pressed in: all else coincides.
+TriangleMesh edited(TriangleMesh mesh, double factor)
+{
+  for (Vec3& p : mesh.points)
+  {
+    p *= p.z() > 0.5 ? factor : 1.0;
+  }
+  return mesh;
+}
+
+// A unit cube and a box of eighths of every size and at every place of a grid: all contacts there
+// are.
+void addBoxGrid(std::vector<BooleanCase>& cases)
+{
+  const TriangleMesh cube = boxAt(0, 0, 0, 1, 1, 1);
+  const std::array<std::array<double, 2>, 5> spans = { { { -0.5, 0.5 }, { 0.0, 0.5 }, { 0.25, 0.5 },
+    { 0.0, 1.0 }, { -0.25, 1.5 } } };
+  for (const auto& x : spans)
+  {
+    for (const auto& y : spans)
+    {
+      for (const auto& z : spans)
+      {
+        const auto common = [](const std::array<double, 2>& span)
+        { return std::min(1.0, span[0] + span[1]) - std::max(0.0, span[0]); };
+        cases.push_back({ "cube and box at " + std::to_string(x[0]) + " " + std::to_string(y[0]) +
+            " " + std::to_string(z[0]) + " of size " + std::to_string(x[1]) + " " +
+            std::to_string(y[1]) + " " + std::to_string(z[1]),
+          cube, boxAt(x[0], y[0], z[0], x[1], y[1], z[1]), common(x) * common(y) * common(z) });
+      }
+    }
+  }
+}
+
+} // namespace
+
+std::vector<BooleanCase> hardCases()
+{
+  const TriangleMesh cube = boxAt(0, 0, 0, 1, 1, 1);
+  const TriangleMesh sphere = icosphere(1.0, 3);
+  const TriangleMesh ring = torus(1.0, 0.4, 24, 12);
+  const double ballVolume = signedVolume(sphere);
+  const double ringVolume = signedVolume(ring);
+  std::vector<BooleanCase> cases = {
+    { "touching in a vertex", cube, boxAt(1, 1, 1, 1, 1, 1), 0.0 },
+    { "touching in an edge", cube, boxAt(1, 1, 0, 1, 1, 1), 0.0 },
+    { "touching in a part of an edge", cube, boxAt(1, 1, 0.25, 1, 1, 0.5), 0.0 },
+    { "sphere with itself", sphere, sphere, ballVolume },
+    { "sphere and a copy in other order", sphere, turned90(sphere), -1.0 },
+    { "sphere shifted by one ulp", sphere, shiftedByOneUlp(sphere), ballVolume },
+    { "sphere shifted by an edge", sphere, shiftedByEdge(sphere), -1.0 },
+    { "sphere and a bumped copy", sphere, edited(sphere, 1.1), ballVolume },
+    { "sphere and a dented copy", sphere, edited(sphere, 0.9), signedVolume(edited(sphere, 0.9)) },
+    { "torus shifted by one ulp", ring, shiftedByOneUlp(ring), ringVolume },
+    { "torus shifted by an edge", ring, shiftedByEdge(ring), -1.0 },
+    { "torus turned by 90 degrees", ring, turned90(ring), ringVolume },
+    { "nested spheres", sphere, icosphere(0.5, 3), signedVolume(icosphere(0.5, 3)) },
+    { "spheres that touch in a vertex", sphere, icosphere(0.5, 3, Vec3(1.5, 0, 0)), -1.0 },
+    { "hollow sphere and a cube in its cavity", hollowSphere(2.0, 1.5, 2),
+      boxAt(-0.5, -0.5, -0.5, 1, 1, 1), 0.0 },
+  };
+  addBoxGrid(cases);
+  return cases;
+}
+
+TriangleMesh moved(TriangleMesh mesh, const Affine3& map)
+{
+  for (Vec3& p : mesh.points)
+  {
+    p = map * p;
+  }
+  return mesh;
+}
+
+Affine3 randomPlacement(Random& random, double reach)
+{
+  Affine3 map = Affine3::Identity();
+  map.translate(Vec3(random.direction() * random.uniform(0.0, reach)));
+  map.rotate(random.rotation());
+  return map;
+}
+
+BooleanResults allOperations(const TriangleMesh& a, const TriangleMesh& b)
+{
+  const MeshOperand first(std::make_shared<const TriangleMesh>(a));
+  const MeshOperand second(std::make_shared<const TriangleMesh>(b));
+  return { meshBoolean(MeshOperation::Union, first, second),
+    meshBoolean(MeshOperation::Intersection, first, second),
+    meshBoolean(MeshOperation::Difference, first, second) };
+}
+
+std::string faultsOf(
+  const BooleanResults& results, const TriangleMesh& a, const TriangleMesh& b, double common)
+{
+  std::string faults;
+  const auto check = [&](const MeshBooleanResult& result, const char* name)
+  {
+    const MeshReport report = checkMesh(result.mesh);
+    if (!result.usable)
+    {
+      faults += std::string(name) + ": not usable; ";
+    }
+    if (!report.closedManifold() || report.unusedPoints > 0)
+    {
+      faults += std::string(name) + ": " + report.describe() + "; ";
+    }
+  };
+  check(results.unite, "union");
+  check(results.intersect, "intersection");
+  check(results.subtract, "difference");
+  const double volumeA = signedVolume(a);
+  const double volumeB = signedVolume(b);
+  const double tolerance = 1e-10 * (volumeA + volumeB);
+  const double both = signedVolume(results.intersect.mesh);
+  const auto compare = [&](double volume, double expected, const char* name)
+  {
+    if (!(std::abs(volume - expected) <= tolerance))
+    {
+      faults += std::string(name) + " of volume " + std::to_string(volume) + " instead of " +
+        std::to_string(expected) + "; ";
+    }
+  };
+  compare(both, common < 0.0 ? both : common, "intersection");
+  compare(signedVolume(results.unite.mesh), volumeA + volumeB - both, "union");
+  compare(signedVolume(results.subtract.mesh), volumeA - both, "difference");
+  return faults;
+}
+
+} // namespace hybridtree::test

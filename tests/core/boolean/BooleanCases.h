@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "core/boolean/MeshBoolean.h"
+#include "tests/support/Random.h"
+
+#include <string>
+#include <vector>
+
+namespace hybridtree::test
+{
+
+struct BooleanCase
+{
+  std::string name;
+  TriangleMesh a;
+  TriangleMesh b;
+  double common; ///< volume of the intersection; negative if not known
+};
+
+/// Where general position ends: faces, edges and vertices that coincide or touch, an operand with
+/// itself, shifted by one unit in the last place, by an edge, turned by 90 degrees.
+std::vector<BooleanCase> hardCases();
+
+TriangleMesh moved(TriangleMesh mesh, const Affine3& map);
+
+/// A rotation, and a shift of at most `reach`.
+Affine3 randomPlacement(Random& random, double reach);
+
+/// All three operations of a pair.
+struct BooleanResults
+{
+  MeshBooleanResult unite, intersect, subtract;
+};
+BooleanResults allOperations(const TriangleMesh& a, const TriangleMesh& b);
+
+/// What is wrong with the results: not closed and manifold, degenerate triangles, volumes that do
+/// not add up, or another volume than `common`. Empty if nothing is.
+std::string faultsOf(
+  const BooleanResults& results, const TriangleMesh& a, const TriangleMesh& b, double common = -1);
+
+} // namespace hybridtree::test

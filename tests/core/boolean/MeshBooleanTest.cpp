@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/boolean/MeshBoolean.h"
+
+#include "core/base/Error.h"
+#include "core/base/Parallel.h"
+#include "core/mesh/MeshChecks.h"
+#include "tests/core/boolean/BooleanCases.h"
+#include "tests/support/TestMeshes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace hybridtree
+{
+namespace
+{
+
+using namespace test;
+
+MeshOperand operandOf(const TriangleMesh& mesh)
+{
+  return MeshOperand(std::make_shared<const TriangleMesh>(mesh));
+}
+
+std::vector<TriangleMesh> shapes()
+{
+  return { icosphere(0.8, 2), torus(0.7, 0.25, 24, 10),
+    box(Vec3(-0.5, -0.6, -0.7), Vec3(0.5, 0.6, 0.7)), bumpySphere(0.8, 3),
+    hollowSphere(0.9, 0.6, 2) };
+}
+
+TEST(MeshBoolean, HardCasesAreClosedManifoldsOfTheRightVolume)
+{
+  for (const BooleanCase& hard : hardCases())
+  {
+    EXPECT_EQ(faultsOf(allOperations(hard.a, hard.b), hard.a, hard.b, hard.common), "")
+      << hard.name;
+  }
+}
+
+TEST(MeshBoolean, RandomPlacementsAreClosedManifoldsWhoseVolumesAddUp)
+{
+  Random random(21);
+  const std::vector<TriangleMesh> pool = shapes();
+  for (int round = 0; round < 150; ++round)
+  {
+    const TriangleMesh& a = pool[std::size_t(random.integer(0, int(pool.size()) - 1))];
+    const TriangleMesh b = moved(
+      pool[std::size_t(random.integer(0, int(pool.size()) - 1))], randomPlacement(random, 1.5));
+    EXPECT_EQ(faultsOf(allOperations(a, b), a, b), "") << "round " << round;
+  }
+}
+
+TEST(MeshBoolean, SmallShapeInsideOfOneTriangleMakesAHole)
+{
+  const TriangleMesh cube = box(Vec3(0, 0, 0), Vec3(1, 1, 1));
+  TriangleMesh balls;
+  double volume = 0.0;
+  for (int k = 0; k < 5; ++k)
+  {
+    balls = joined(balls, icosphere(0.02, 2, Vec3(0.1 + 0.1 * k, 0.05, 1.0)));
+  }
+  const BooleanResults results = allOperations(cube, balls);
+  EXPECT_EQ(faultsOf(results, cube, balls), "");
+  EXPECT_EQ(results.unite.curves.size(), 5u);
+  volume = signedVolume(results.intersect.mesh);
+  EXPECT_NEAR(volume, 0.5 * signedVolume(balls), 0.01 * volume);
+}
+
+TEST(MeshBoolean, SourcesNameTheTrianglesThatPartsLieIn)
+{
+  Random random(22);
+  const TriangleMesh a = bumpySphere(1.0, 3);
+  const TriangleMesh b = moved(torus(0.8, 0.3, 30, 12), randomPlacement(random, 0.5));
+  const MeshBooleanResult result =
+    meshBoolean(MeshOperation::Difference, operandOf(a), operandOf(b));
+  ASSERT_FALSE(result.mesh.empty());
+  for (std::size_t t = 0; t < result.mesh.triangles.size(); ++t)
+  {
+    const TriangleMesh& source = result.sourceOperand[t] == 0 ? a : b;
+    const std::size_t s = std::size_t(result.sourceTriangle[t]);
+    const Vec3 normal = areaNormal(source, s);
+    const Vec3& origin = source.points[std::size_t(source.triangles[s][0])];
+    for (const std::int32_t vertex : result.mesh.triangles[t])
+    {
+      EXPECT_NEAR(
+        normal.normalized().dot(result.mesh.points[std::size_t(vertex)] - origin), 0.0, 1e-12);
+    }
+    const double along = normal.dot(areaNormal(result.mesh, t));
+    EXPECT_GE(result.sourceOperand[t] == 0 ? along : -along, -1e-18);
+  }
+  for (std::size_t k = 0; k < result.firstCut; ++k)
+  {
+    const TriangleMesh& source = k < result.firstOfB ? a : b;
+    EXPECT_EQ(result.mesh.points[k], source.points[std::size_t(result.sourcePoint[k])]);
+  }
+}
+
+TEST(MeshBoolean, CurvesLieOnBothSurfacesAndAreClosed)
+{
+  const MeshBooleanResult result = meshBoolean(MeshOperation::Union, operandOf(icosphere(1.0, 4)),
+    operandOf(icosphere(1.0, 4, Vec3(1.0, 0.1, 0.05))));
+  ASSERT_EQ(result.curves.size(), 1u);
+  EXPECT_EQ(result.curves[0].front(), result.curves[0].back());
+  for (const std::int32_t k : result.curves[0])
+  {
+    const Vec3& p = result.mesh.points[std::size_t(k)];
+    EXPECT_NEAR(p.norm(), 1.0, 0.005);
+    EXPECT_NEAR((p - Vec3(1.0, 0.1, 0.05)).norm(), 1.0, 0.005);
+  }
+}
+
+TEST(MeshBoolean, SameBytesForAnyNumberOfThreads)
+{
+  Random random(23);
+  const TriangleMesh a = bumpySphere(1.0, 5);
+  const TriangleMesh b = moved(a, randomPlacement(random, 0.3));
+  setThreadCount(1);
+  const MeshBooleanResult one = meshBoolean(MeshOperation::Union, operandOf(a), operandOf(b));
+  setThreadCount(2);
+  const MeshBooleanResult two = meshBoolean(MeshOperation::Union, operandOf(a), operandOf(b));
+  setThreadCount(0);
+  EXPECT_EQ(one.mesh.points, two.mesh.points);
+  EXPECT_EQ(one.mesh.triangles, two.mesh.triangles);
+  EXPECT_EQ(one.sourceTriangle, two.sourceTriangle);
+}
+
+TEST(MeshBoolean, EmptyAndDistantOperandsAreAnswers)
+{
+  const TriangleMesh ball = icosphere(1.0, 2);
+  const TriangleMesh far = icosphere(1.0, 2, Vec3(5, 0, 0));
+  EXPECT_EQ(faultsOf(allOperations(ball, far), ball, far, 0.0), "");
+  EXPECT_EQ(faultsOf(allOperations(ball, {}), ball, {}, 0.0), "");
+  EXPECT_EQ(faultsOf(allOperations({}, ball), {}, ball, 0.0), "");
+  EXPECT_EQ(faultsOf(allOperations({}, {}), {}, {}, 0.0), "");
+}
+
+TEST(MeshBoolean, OpenOperandIsClosedAndTold)
+{
+  const TriangleMesh ball = icosphere(1.0, 3);
+  const TriangleMesh open = withoutTriangles(icosphere(1.0, 3, Vec3(1.0, 0.2, 0.1)), 40, 30);
+  const BooleanResults results = allOperations(ball, open);
+  for (const MeshBooleanResult* result : { &results.unite, &results.intersect, &results.subtract })
+  {
+    EXPECT_TRUE(checkMesh(result->mesh).closedManifold());
+    EXPECT_TRUE(result->usable);
+    ASSERT_FALSE(result->warnings.empty());
+    EXPECT_NE(result->warnings.front().find("second operand is not closed"), std::string::npos);
+  }
+}
+
+TEST(MeshBoolean, OperandThatCrossesItselfAtTheCutIsTold)
+{
+  const TriangleMesh twice = joined(icosphere(1.0, 3), icosphere(1.0, 3, Vec3(0.5, 0.1, 0.2)));
+  const TriangleMesh bar = box(Vec3(-2, -0.3, -0.31), Vec3(2, 0.32, 0.33));
+  const MeshBooleanResult result =
+    meshBoolean(MeshOperation::Union, operandOf(bar), operandOf(twice));
+  EXPECT_FALSE(result.usable);
+  EXPECT_TRUE(result.mesh.empty());
+  ASSERT_FALSE(result.warnings.empty());
+  EXPECT_NE(result.warnings.back().find("crosses itself"), std::string::npos);
+}
+
+TEST(MeshBoolean, RefusesCoordinatesBeyondArithmetic)
+{
+  EXPECT_THROW(operandOf(box(Vec3(0, 0, 0), Vec3(1e80, 1, 1))), InvalidGeometry);
+}
+
+TEST(MeshBoolean, StopsWhenAsked)
+{
+  class Stop final : public Progress
+  {
+  public:
+    bool cancelled() const override { return true; }
+  };
+  const MeshOperand a = operandOf(icosphere(1.0, 3));
+  const MeshOperand b = operandOf(icosphere(1.0, 3, Vec3(0.5, 0, 0)));
+  EXPECT_THROW(meshBoolean(MeshOperation::Union, a, b, Stop()), Cancelled);
+}
+
+} // namespace
+} // namespace hybridtree
