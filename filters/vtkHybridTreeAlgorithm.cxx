@@ -2,6 +2,7 @@
 #include "vtkHybridTreeAlgorithm.h"
 
 #include "core/base/Error.h"
+#include "core/nodes/MeshLimits.h"
 #include "core/nodes/Node.h"
 #include "vtkExecutive.h"
 #include "vtkHybridTreeArray.h"
@@ -53,7 +54,6 @@ vtkHybridTreeAlgorithm::NodePtr vtkHybridTreeAlgorithm::GetTree() const
 //------------------------------------------------------------------------------
 void vtkHybridTreeAlgorithm::SetEdgeLength(double length)
 {
-  length = std::max(length, 0.0);
   if (length == this->EdgeLength)
   {
     return;
@@ -137,6 +137,7 @@ void vtkHybridTreeAlgorithm::Run(vtkInformationVector** inputs, vtkInformationVe
     Clear(outputs);
     return;
   }
+  hybridtree::requireEdgeLength(this->EdgeLength);
   this->UpdateNode(inputs);
   const hybridtree::FilterProgress progress(this);
   this->WriteOutput(vtkPolyData::GetData(info),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkHybridTreeArray.h"
 
+#include "core/base/Error.h"
 #include "core/tree/Serialize.h"
 #include "vtkFieldData.h"
 #include "vtkHybridTreeConvert.h"
@@ -8,6 +9,9 @@
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
+
+#include <algorithm>
+#include <cctype>
 
 vtkStandardNewMacro(vtkHybridTreeArray);
 
@@ -77,11 +81,29 @@ std::string fingerprintText(vtkPolyData* mesh)
   return text;
 }
 
+namespace
+{
+
+bool isFingerprint(const std::string& text)
+{
+  return text.size() == 16 &&
+    std::all_of(text.begin(), text.end(), [](unsigned char digit) { return std::isxdigit(digit); });
+}
+
+} // namespace
+
 CarriedTree carriedTree(vtkPolyData* mesh)
 {
   CarriedTree carried;
-  auto* array = vtkStringArray::SafeDownCast(mesh->GetFieldData()->GetAbstractArray("HybridTree"));
-  if (array && array->GetNumberOfValues() == 2 && array->GetValue(1) == fingerprintText(mesh))
+  vtkAbstractArray* any = mesh->GetFieldData()->GetAbstractArray("HybridTree");
+  auto* array = vtkStringArray::SafeDownCast(any);
+  if (any && (!array || array->GetNumberOfValues() != 2 || !isFingerprint(array->GetValue(1))))
+  {
+    throw InvalidText("The field-data array \"HybridTree\" is damaged: it must hold the text of a "
+                      "tree and a fingerprint of 16 digits. Save the file again from the filter "
+                      "that made it, or remove the array to use the plain mesh.");
+  }
+  if (array && array->GetValue(1) == fingerprintText(mesh))
   {
     carried.belongs = true;
     carried.text = array->GetValue(0);

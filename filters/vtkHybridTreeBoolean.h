@@ -40,7 +40,7 @@ public:
    * UNION (0, default): what is in A or B. INTERSECTION (1): what is in both. DIFFERENCE (2):
    * what is in A and not in B.
    */
-  vtkSetClampMacro(Operation, int, UNION, DIFFERENCE);
+  vtkSetMacro(Operation, int);
   vtkGetMacro(Operation, int);
   ///@}
 
@@ -50,7 +50,7 @@ public:
    * blend stands above, SMOOTH (2) has none, PAPER (3) is what [HT] prints, for comparison.
    * AUTOMATIC (0, default) is smooth below a blend and min/max elsewhere.
    */
-  vtkSetClampMacro(Form, int, AUTOMATIC, PAPER);
+  vtkSetMacro(Form, int);
   vtkGetMacro(Form, int);
   ///@}
 

@@ -12,7 +12,7 @@
 #define vtkHybridTreeFieldAlgorithm_h
 
 #include "HybridTreeFiltersModule.h" // for export macro
-#include "vtkHybridTreeAlgorithm.h"
+#include "vtkHybridTreeLeafAlgorithm.h"
 
 namespace hybridtree
 {
@@ -20,25 +20,19 @@ class Potential;
 class Skeleton;
 }
 
-class HYBRIDTREEFILTERS_EXPORT vtkHybridTreeFieldAlgorithm : public vtkHybridTreeAlgorithm
+class HYBRIDTREEFILTERS_EXPORT vtkHybridTreeFieldAlgorithm : public vtkHybridTreeLeafAlgorithm
 {
 public:
-  vtkTypeMacro(vtkHybridTreeFieldAlgorithm, vtkHybridTreeAlgorithm);
+  vtkTypeMacro(vtkHybridTreeFieldAlgorithm, vtkHybridTreeLeafAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  enum FieldModeType
-  {
-    SURFACE_RADIUS = 0,
-    MAXIMUM_FIELD = 1
-  };
-
-  ///@{
   /**
-   * How the strength of the field is given: 0 (default) by SurfaceRadius, 1 by MaximumField.
+   * FieldMode 0 is by SurfaceRadius here.
    */
-  vtkSetClampMacro(FieldMode, int, SURFACE_RADIUS, MAXIMUM_FIELD);
-  vtkGetMacro(FieldMode, int);
-  ///@}
+  enum SurfaceModeType
+  {
+    SURFACE_RADIUS = AUTOMATIC
+  };
 
   ///@{
   /**
@@ -47,43 +41,6 @@ public:
    */
   vtkSetMacro(SurfaceRadius, double);
   vtkGetMacro(SurfaceRadius, double);
-  ///@}
-
-  ///@{
-  /**
-   * Field value on the skeleton, no unit, > 0; there is a surface from 0.5 on. Used when FieldMode
-   * is 1. Default 1.
-   */
-  vtkSetMacro(MaximumField, double);
-  vtkGetMacro(MaximumField, double);
-  ///@}
-
-  ///@{
-  /**
-   * Distance from the skeleton at which the field ends, world units, > 0: how far the primitive
-   * blends.
-   */
-  vtkSetMacro(InfluenceRadius, double);
-  vtkGetMacro(InfluenceRadius, double);
-  ///@}
-
-  ///@{
-  /**
-   * Exponent n of the field, 2 to 64, default 2. A larger one makes the field fall faster near the
-   * skeleton and blends tighter.
-   */
-  vtkSetMacro(Exponent, int);
-  vtkGetMacro(Exponent, int);
-  ///@}
-
-  ///@{
-  /**
-   * Carve instead of add: the field is negative. Such a primitive has no surface of its own, and an
-   * empty output; it shows where something blends with it. Default off.
-   */
-  vtkSetMacro(Negative, bool);
-  vtkGetMacro(Negative, bool);
-  vtkBooleanMacro(Negative, bool);
   ///@}
 
 protected:
@@ -104,12 +61,7 @@ protected:
   virtual std::shared_ptr<const hybridtree::Skeleton> MakeSkeleton() = 0;
 #endif
 
-  int FieldMode = SURFACE_RADIUS;
   double SurfaceRadius = 0.5;
-  double MaximumField = 1.0;
-  double InfluenceRadius = 1.0;
-  int Exponent = 2;
-  bool Negative = false;
 
 private:
   vtkHybridTreeFieldAlgorithm(const vtkHybridTreeFieldAlgorithm&) = delete;

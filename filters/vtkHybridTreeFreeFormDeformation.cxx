@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 vtkStandardNewMacro(vtkHybridTreeFreeFormDeformation);
@@ -32,7 +33,9 @@ void vtkHybridTreeFreeFormDeformation::SetNumberOfDisplacements(int count)
   const auto size = static_cast<std::size_t>(std::max(count, 0));
   if (size != this->Displacements.size())
   {
-    this->Displacements.resize(size, Displacement{});
+    Displacement unset;
+    unset.fill(std::numeric_limits<double>::quiet_NaN());
+    this->Displacements.resize(size, unset);
     this->Modified();
   }
 }
@@ -120,14 +123,16 @@ void vtkHybridTreeFreeFormDeformation::MoveControlPoints(hybridtree::FreeFormLat
     std::array<long, 3> index;
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
-      if (!(0.0 <= values[axis] && values[axis] <= size[axis] - 1))
+      if (!(0.0 <= values[axis] && values[axis] <= size[axis] - 1) ||
+        values[axis] != std::floor(values[axis]))
       {
         throw hybridtree::InvalidParameter("Index " + std::string(1, "ijk"[axis]) + " of row " +
             std::to_string(row) + " of Displacements",
           values[axis],
-          "from 0 to " + std::to_string(size[axis] - 1) + ", one less than LatticeDimensions");
+          "a whole number from 0 to " + std::to_string(size[axis] - 1) +
+            ", one less than LatticeDimensions; a row has six numbers, i j k dx dy dz");
       }
-      index[axis] = std::lround(values[axis]);
+      index[axis] = static_cast<long>(values[axis]);
     }
     lattice.displacements[static_cast<std::size_t>(
       index[0] + size[0] * (index[1] + size[1] * index[2]))] +=
@@ -141,8 +146,7 @@ vtkHybridTreeFreeFormDeformation::NodePtr vtkHybridTreeFreeFormDeformation::Make
 {
   const NodePtr& input = operands[0].front();
   const hybridtree::FreeFormLattice lattice = this->GetLattice(*input);
-  const auto from = this->FieldFrom == INVERSE_MAP ? hybridtree::FieldFrom::InverseMap
-                                                   : hybridtree::FieldFrom::DeformedMesh;
+  const auto from = static_cast<hybridtree::FieldFrom>(this->FieldFrom);
   NodePtr node = hybridtree::makeFreeForm(input, lattice, from, this->EdgeLength);
   this->Drawing = std::make_unique<hybridtree::ControlLattice>(hybridtree::controlLattice(lattice));
   return node;

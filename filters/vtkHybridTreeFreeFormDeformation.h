@@ -83,15 +83,16 @@ public:
    * deformed mesh ([HT] 4.5.2), or INVERSE_MAP (1), the field of the input at the point that
    * the lattice moved here, which is exact but exists only where the lattice does not fold.
    */
-  vtkSetClampMacro(FieldFrom, int, DEFORMED_MESH, INVERSE_MAP);
+  vtkSetMacro(FieldFrom, int);
   vtkGetMacro(FieldFrom, int);
   ///@}
 
   ///@{
   /**
-   * Displacements of control points: row after row the indices i, j, k of a control point, from 0
-   * to LatticeDimensions - 1, and its displacement dx, dy, dz in world units. Rows for the same
-   * control point add up. No rows by default.
+   * Displacements of control points: row after row the indices i, j, k of a control point, whole
+   * numbers from 0 to LatticeDimensions - 1, and its displacement dx, dy, dz in world units. Rows
+   * for the same control point add up. No rows by default; one that SetNumberOfDisplacements has
+   * made must be set.
    */
   void SetNumberOfDisplacements(int count);
   int GetNumberOfDisplacements() const;

@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <unordered_map>
 
 namespace hybridtree
 {
@@ -47,6 +48,12 @@ vtkSmartPointer<vtkAbstractArray> arrayLike(vtkAbstractArray* other, const std::
   return array;
 }
 
+InvalidText damaged(const std::string& hash, const std::string& what)
+{
+  return InvalidText("The mesh leaf " + hash + " that the tree refers to is damaged: " + what +
+    ". Save the file again in binary form from the filter that made it.");
+}
+
 // ---------------------------------------------------------------------------- leaves
 
 std::string kindName(const Node& leaf)
@@ -58,20 +65,34 @@ std::string kindName(const Node& leaf)
   return name;
 }
 
-void appendLeaves(const Node& node, std::vector<Leaf>& leaves)
+/// A leaf of that name without its number.
+Leaf leafOf(const Node& node)
+{
+  Leaf leaf;
+  leaf.name = kindName(node);
+  leaf.mesh = node.leafMesh();
+  leaf.hash = leaf.mesh ? contentHashText(*leaf.mesh) : "";
+  return leaf;
+}
+
+/// One for each path to a leaf; what is known of a leaf itself is found once.
+void appendLeaves(
+  const Node& node, std::unordered_map<const Node*, Leaf>& known, std::vector<Leaf>& leaves)
 {
   const std::vector<NodePtr> children = node.children();
   for (const NodePtr& child : children)
   {
-    appendLeaves(*child, leaves);
+    appendLeaves(*child, known, leaves);
   }
   if (children.empty())
   {
-    Leaf leaf;
-    leaf.name = kindName(node) + " " + std::to_string(leaves.size());
-    leaf.mesh = node.leafMesh();
-    leaf.hash = leaf.mesh ? contentHashText(*leaf.mesh) : "";
-    leaves.push_back(std::move(leaf));
+    auto found = known.find(&node);
+    if (found == known.end())
+    {
+      found = known.emplace(&node, leafOf(node)).first;
+    }
+    leaves.push_back(found->second);
+    leaves.back().name += " " + std::to_string(leaves.size() - 1);
   }
 }
 
@@ -163,7 +184,16 @@ Columns columnsOf(
     for (auto entry = arrays.lower_bound(start);
          entry != arrays.end() && startsWith(entry->first, start); ++entry)
     {
-      const auto column = columns.emplace(entry->first.substr(start.size()), leaves.size()).first;
+      const std::string name = entry->first.substr(start.size());
+      const TriangleMesh& mesh = *leaves[leaf].mesh;
+      const std::size_t rows = prefix == kPointData ? mesh.points.size() : mesh.triangles.size();
+      if (entry->second->GetNumberOfTuples() != static_cast<vtkIdType>(rows))
+      {
+        throw damaged(leaves[leaf].hash,
+          "its array \"" + name + "\" has " + std::to_string(entry->second->GetNumberOfTuples()) +
+            " rows in place of " + std::to_string(rows));
+      }
+      const auto column = columns.emplace(name, leaves.size()).first;
       column->second.sources[leaf] = entry->second;
     }
   }
@@ -282,12 +312,6 @@ void fillCells(const TriangleMesh& mesh, const Column& column, vtkAbstractArray*
 
 // ---------------------------------------------------------------------------- meshes
 
-InvalidText damaged(const std::string& hash, const std::string& what)
-{
-  return InvalidText("The mesh leaf " + hash + " that the tree refers to is damaged: " + what +
-    ". Save the file again in binary form from the filter that made it.");
-}
-
 /// Points and triangles as the arrays beside the tree give them; null when they are not there.
 MeshPtr readMesh(vtkFieldData* data, const std::string& hash)
 {
@@ -334,7 +358,8 @@ MeshPtr readMesh(vtkFieldData* data, const std::string& hash)
 std::vector<Leaf> leavesOf(const Node& tree)
 {
   std::vector<Leaf> leaves;
-  appendLeaves(tree, leaves);
+  std::unordered_map<const Node*, Leaf> known;
+  appendLeaves(tree, known, leaves);
   return leaves;
 }
 

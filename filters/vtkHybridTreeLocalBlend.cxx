@@ -20,15 +20,13 @@ vtkHybridTreeLocalBlend::~vtkHybridTreeLocalBlend() = default;
 //------------------------------------------------------------------------------
 vtkHybridTreeLocalBlend::NodePtr vtkHybridTreeLocalBlend::MakeNode(const Operands& operands)
 {
-  hybridtree::BlendOptions options;
-  options.method = static_cast<hybridtree::BlendMethod>(this->Method);
-  options.overlapThreshold = this->OverlapThreshold;
   NodePtr region = operands[2].front();
   for (std::size_t k = 1; k < operands[2].size(); ++k)
   {
     region = hybridtree::makeBoolean(hybridtree::BooleanOperation::Union, region, operands[2][k]);
   }
-  return hybridtree::makeLocalBlend(operands[0].front(), operands[1].front(), region, options);
+  return hybridtree::makeLocalBlend(
+    operands[0].front(), operands[1].front(), region, this->GetOptions());
 }
 
 //------------------------------------------------------------------------------
@@ -39,12 +37,4 @@ int vtkHybridTreeLocalBlend::FillInputPortInformation(int port, vtkInformation* 
     info->Set(vtkAlgorithm::INPUT_IS_REPEATABLE(), 1);
   }
   return this->Superclass::FillInputPortInformation(port, info);
-}
-
-//------------------------------------------------------------------------------
-void vtkHybridTreeLocalBlend::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  os << indent << "Method: " << this->Method << "\n";
-  os << indent << "OverlapThreshold: " << this->OverlapThreshold << "\n";
 }

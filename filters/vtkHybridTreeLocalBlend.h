@@ -12,41 +12,13 @@
 #define vtkHybridTreeLocalBlend_h
 
 #include "HybridTreeFiltersModule.h" // for export macro
-#include "vtkHybridTreeAlgorithm.h"
+#include "vtkHybridTreeBlendAlgorithm.h"
 
-class HYBRIDTREEFILTERS_EXPORT vtkHybridTreeLocalBlend : public vtkHybridTreeAlgorithm
+class HYBRIDTREEFILTERS_EXPORT vtkHybridTreeLocalBlend : public vtkHybridTreeBlendAlgorithm
 {
 public:
   static vtkHybridTreeLocalBlend* New();
-  vtkTypeMacro(vtkHybridTreeLocalBlend, vtkHybridTreeAlgorithm);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
-
-  enum MethodType
-  {
-    AUTOMATIC = 0,
-    NODE_BASED = 1,
-    PRIMITIVE_BASED = 2,
-    GLOBAL = 3
-  };
-
-  ///@{
-  /**
-   * How the mesh is made: AUTOMATIC (0, default) chooses, NODE_BASED (1) meshes the overlap of
-   * the operands anew, PRIMITIVE_BASED (2) the overlap of the leaves, GLOBAL (3) everything.
-   * The shape is the same for all. At present every method meshes everything.
-   */
-  vtkSetClampMacro(Method, int, AUTOMATIC, GLOBAL);
-  vtkGetMacro(Method, int);
-  ///@}
-
-  ///@{
-  /**
-   * Overlap ratio rho_0 up to which operands keep their own triangles ([HT] 5.2.1), no unit,
-   * range [0, 1], default 0.5. The shape does not depend on it.
-   */
-  vtkSetClampMacro(OverlapThreshold, double, 0.0, 1.0);
-  vtkGetMacro(OverlapThreshold, double);
-  ///@}
+  vtkTypeMacro(vtkHybridTreeLocalBlend, vtkHybridTreeBlendAlgorithm);
 
 protected:
   vtkHybridTreeLocalBlend();
@@ -57,9 +29,6 @@ protected:
 #endif
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
-
-  int Method = AUTOMATIC;
-  double OverlapThreshold = 0.5;
 
 private:
   vtkHybridTreeLocalBlend(const vtkHybridTreeLocalBlend&) = delete;

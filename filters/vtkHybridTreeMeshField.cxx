@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkHybridTreeMeshField.h"
 
-#include "core/base/Error.h"
 #include "core/nodes/MeshNode.h"
 #include "vtkInformation.h"
 #include "vtkInformationIntegerKey.h"
@@ -10,7 +9,11 @@
 vtkStandardNewMacro(vtkHybridTreeMeshField);
 
 //------------------------------------------------------------------------------
-vtkHybridTreeMeshField::vtkHybridTreeMeshField() = default;
+vtkHybridTreeMeshField::vtkHybridTreeMeshField()
+{
+  this->InfluenceRadius = 0.0;
+}
+
 vtkHybridTreeMeshField::~vtkHybridTreeMeshField() = default;
 
 //------------------------------------------------------------------------------
@@ -25,29 +28,9 @@ int vtkHybridTreeMeshField::FillInputPortInformation(int port, vtkInformation* i
 vtkHybridTreeMeshField::NodePtr vtkHybridTreeMeshField::MakeNode(const Operands& operands)
 {
   const hybridtree::MeshPtr mesh = operands[0].front()->leafMesh();
-  double maximum = 2.0 * hybridtree::kThreshold;
-  if (this->FieldMode == MAXIMUM_FIELD)
-  {
-    maximum = this->MaximumField;
-    if (!(maximum > 0.0))
-    {
-      throw hybridtree::InvalidParameter(
-        "MaximumField", maximum, "0.5 or more; switch Negative on to carve");
-    }
-  }
+  const double byDefault = (this->Negative ? -2.0 : 2.0) * hybridtree::kThreshold;
+  const double maximum = this->UsesMaximumField() ? this->GetSignedMaximum() : byDefault;
   const double radius = this->InfluenceRadius == 0.0 ? hybridtree::defaultInfluenceRadius(*mesh)
                                                      : this->InfluenceRadius;
-  return hybridtree::makeMeshNode(
-    mesh, this->Negative ? -maximum : maximum, radius, this->Exponent);
-}
-
-//------------------------------------------------------------------------------
-void vtkHybridTreeMeshField::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  os << indent << "FieldMode: " << this->FieldMode << "\n";
-  os << indent << "MaximumField: " << this->MaximumField << "\n";
-  os << indent << "InfluenceRadius: " << this->InfluenceRadius << "\n";
-  os << indent << "Exponent: " << this->Exponent << "\n";
-  os << indent << "Negative: " << this->Negative << "\n";
+  return hybridtree::makeMeshNode(mesh, maximum, radius, this->Exponent);
 }

@@ -8,6 +8,9 @@
  * default field parameters; this filter is for others. It takes the mesh of a node too, and ends
  * the tree there.
  *
+ * With FieldMode 0 the field deep inside is 1; MaximumField must be 0.5 or more. InfluenceRadius is
+ * measured outside of the mesh; 0 (default) means a tenth of the diagonal of the mesh's bounds.
+ *
  * Polygons and strips are triangulated, exactly equal points become one, degenerate and double
  * triangles go, and orientations are made consistent. An open mesh gets its inside from the
  * winding number, with a warning.
@@ -17,66 +20,13 @@
 #define vtkHybridTreeMeshField_h
 
 #include "HybridTreeFiltersModule.h" // for export macro
-#include "vtkHybridTreeAlgorithm.h"
+#include "vtkHybridTreeLeafAlgorithm.h"
 
-class HYBRIDTREEFILTERS_EXPORT vtkHybridTreeMeshField : public vtkHybridTreeAlgorithm
+class HYBRIDTREEFILTERS_EXPORT vtkHybridTreeMeshField : public vtkHybridTreeLeafAlgorithm
 {
 public:
   static vtkHybridTreeMeshField* New();
-  vtkTypeMacro(vtkHybridTreeMeshField, vtkHybridTreeAlgorithm);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
-
-  enum FieldModeType
-  {
-    AUTOMATIC = 0,
-    MAXIMUM_FIELD = 1
-  };
-
-  ///@{
-  /**
-   * How the strength of the field is given: 0 (default) twice the threshold inside the mesh, 1
-   * by MaximumField.
-   */
-  vtkSetClampMacro(FieldMode, int, AUTOMATIC, MAXIMUM_FIELD);
-  vtkGetMacro(FieldMode, int);
-  ///@}
-
-  ///@{
-  /**
-   * Field deep inside the mesh, no unit, >= 0.5, default 1. Used when FieldMode is 1. A larger
-   * one blends wider at the same InfluenceRadius.
-   */
-  vtkSetMacro(MaximumField, double);
-  vtkGetMacro(MaximumField, double);
-  ///@}
-
-  ///@{
-  /**
-   * Distance outside the mesh at which the field ends, world units, >= 0: how far the mesh
-   * blends. 0 (default) means a tenth of the diagonal of the mesh's bounds.
-   */
-  vtkSetMacro(InfluenceRadius, double);
-  vtkGetMacro(InfluenceRadius, double);
-  ///@}
-
-  ///@{
-  /**
-   * Exponent n of the field, 2 to 64, default 2. A larger one makes the field fall faster at
-   * the surface and blends tighter.
-   */
-  vtkSetMacro(Exponent, int);
-  vtkGetMacro(Exponent, int);
-  ///@}
-
-  ///@{
-  /**
-   * Carve instead of add: the field is negative. Such a mesh has no surface of its own, and an
-   * empty output. Default off.
-   */
-  vtkSetMacro(Negative, bool);
-  vtkGetMacro(Negative, bool);
-  vtkBooleanMacro(Negative, bool);
-  ///@}
+  vtkTypeMacro(vtkHybridTreeMeshField, vtkHybridTreeLeafAlgorithm);
 
 protected:
   vtkHybridTreeMeshField();
@@ -87,12 +37,6 @@ protected:
 #endif
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
-
-  int FieldMode = AUTOMATIC;
-  double MaximumField = 1.0;
-  double InfluenceRadius = 0.0;
-  int Exponent = 2;
-  bool Negative = false;
 
 private:
   vtkHybridTreeMeshField(const vtkHybridTreeMeshField&) = delete;

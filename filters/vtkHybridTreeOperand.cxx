@@ -7,6 +7,8 @@
 #include "vtkHybridTreeArray.h"
 #include "vtkPolyData.h"
 
+#include <unordered_set>
+
 namespace hybridtree
 {
 namespace
@@ -29,12 +31,18 @@ void append(const std::vector<std::string>& from, std::vector<std::string>& to)
   to.insert(to.end(), from.begin(), from.end());
 }
 
-void appendAllWarnings(const Node& node, std::vector<std::string>& to)
+/// Of each node once, however many paths lead to it.
+void appendAllWarnings(
+  const Node& node, std::unordered_set<const Node*>& seen, std::vector<std::string>& to)
 {
+  if (!seen.insert(&node).second)
+  {
+    return;
+  }
   append(node.warnings(), to);
   for (const NodePtr& child : node.children())
   {
-    appendAllWarnings(*child, to);
+    appendAllWarnings(*child, seen, to);
   }
 }
 
@@ -58,7 +66,8 @@ void Operand::read(vtkPolyData* input, std::vector<std::string>& newWarnings)
   {
     node_ = fromText(carried.text, meshesIn(input->GetFieldData()));
     text_ = carried.text;
-    appendAllWarnings(*node_, newWarnings);
+    std::unordered_set<const Node*> seen;
+    appendAllWarnings(*node_, seen, newWarnings);
   }
   mesh_ = {};
   arrays_.clear();

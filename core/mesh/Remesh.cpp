@@ -20,8 +20,9 @@ constexpr double kLargestTurn = 0.5; // cosine of 60 degrees
 constexpr double kFlatEnough = 0.9;  // cosine of the angle across an edge that may be flipped
 constexpr double kSliver = 0.99;     // cosine of a smallest angle whose normal means nothing
 constexpr double kWorthIt = 0.02;    // gain in that cosine for which an edge is flipped
-constexpr double kMaxTriangles = 1e9;
+constexpr double kMaxTriangles = 1e8;
 constexpr int kMaxSplitPasses = 40;
+constexpr std::size_t kStepsPerLook = 1024;
 
 /// Cosine of the smallest angle: 0.5 at best, 1 without area.
 double shapeOf(const Vec3& a, const Vec3& b, const Vec3& c)
@@ -126,6 +127,7 @@ private:
     double area = 0.0;
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
     {
+      this->lookForStop(t);
       area += this->normal(t).norm();
     }
     const double count = area / (options_.edgeLength * options_.edgeLength);
@@ -134,6 +136,14 @@ private:
       throw TooLarge("An edge length of " + std::to_string(options_.edgeLength) + " makes some " +
         std::to_string(count) + " triangles; the limit is " + std::to_string(kMaxTriangles) +
         ". Use a longer one.");
+    }
+  }
+
+  void lookForStop(std::size_t step) const
+  {
+    if (step % kStepsPerLook == 0)
+    {
+      progress_.check();
     }
   }
 
@@ -170,6 +180,7 @@ private:
     std::vector<Index> edges;
     for (std::size_t t = 0; t < links_.triangleCount(); ++t)
     {
+      this->lookForStop(t);
       if (links_.isRemoved(t))
       {
         continue;
@@ -313,6 +324,7 @@ private:
     bool any = false;
     for (std::size_t t = 0; t < links_.triangleCount(); ++t)
     {
+      this->lookForStop(t);
       if (links_.isRemoved(t) || this->shape(t) < badShape_)
       {
         continue;
@@ -402,6 +414,7 @@ private:
     bool any = false;
     for (std::size_t t = 0; t < links_.triangleCount(); ++t)
     {
+      this->lookForStop(t);
       if (links_.isRemoved(t) || !(touched_[t] || this->shape(t) > badShape_))
       {
         continue;
@@ -459,6 +472,7 @@ private:
     mesh_.triangles.resize(links_.triangleCount());
     for (std::size_t t = 0; t < links_.triangleCount(); ++t)
     {
+      this->lookForStop(t);
       if (links_.isRemoved(t))
       {
         continue;

@@ -3,6 +3,7 @@
 
 #include "core/base/Error.h"
 #include "core/nodes/BarrMap.h"
+#include "core/nodes/MeshLimits.h"
 #include "core/nodes/WarpedNode.h"
 
 #include <cmath>
@@ -139,6 +140,10 @@ void checkRange(double begin, double end)
     throw InvalidParameter(
       "The range", std::isfinite(begin) ? end : begin, "made of finite numbers");
   }
+  if (!std::isfinite(end - begin))
+  {
+    throw InvalidParameter("The length of the range", end - begin, "finite");
+  }
   if (!(begin < end))
   {
     throw InvalidParameter("The begin of the range", begin,
@@ -174,11 +179,29 @@ Affine3 matrixOf(const BarrFrame& frame)
   return matrix;
 }
 
+// In coordinates of a frame that is too far away the shape loses its digits.
+void checkDistance(const char* kind, const Node& child, const Affine3& frame)
+{
+  const Box3 box = transformed(child.influenceBounds(), frame.inverse());
+  if (!box.isEmpty() && !holdsDigits(box))
+  {
+    const double size = box.sizes().maxCoeff();
+    std::ostringstream text;
+    text
+      << "at most " << size / kSmallestShare
+      << " (in lengths of the axis), as double precision leaves too few digits of a shape of size "
+      << size << " beyond; move the origin towards the shape";
+    throw InvalidParameter("The distance of the shape from the origin of the " + std::string(kind),
+      largestCoordinate(box), text.str());
+  }
+}
+
 template <typename Map>
 NodePtr make(NodePtr child, const Affine3& frame, double begin, double end, double amount)
 {
   checkRange(begin, end);
   Kind<Map>::check(amount);
+  checkDistance(Kind<Map>::kName, *child, frame);
   return std::make_shared<const BarrNode<Map>>(
     std::move(child), std::make_shared<const FramedWarp<Map>>(Map{ begin, end, amount }, frame));
 }

@@ -188,6 +188,15 @@ Box3 TaperMap::inverseExtent(const Box3& box) const
   return Box3(Vec3(n.min, b.min, box.min()[2]), Vec3(n.max, b.max, box.max()[2]));
 }
 
+Box3 TaperMap::forwardExtent(const Box3& box) const
+{
+  const Interval scale = Interval{ 1.0, 1.0 } +
+    (factor - 1.0) * Interval{ along(box.min()[2], begin, end), along(box.max()[2], begin, end) };
+  const Interval n = scale * component(box, 0);
+  const Interval b = scale * component(box, 1);
+  return Box3(Vec3(n.min, b.min, box.min()[2]), Vec3(n.max, b.max, box.max()[2]));
+}
+
 // --- bend
 // ----------------------------------------------------------------------------------------- With k
 // = angle / (end - begin), tHat = clamp(t), theta = k (tHat - begin), C and S its cosine and sine
@@ -375,6 +384,20 @@ Box3 BendMap::inverseExtent(const Box3& box) const
     Vec3(axis + radius, box.max()[1], end + radius));
 }
 
+Box3 BendMap::forwardExtent(const Box3& box) const
+{
+  if (this->isIdentity())
+  {
+    return box;
+  }
+  const double axis = 1.0 / this->rate();
+  const double beyond = std::max({ begin - box.min()[2], box.max()[2] - end, 0.0 });
+  const double across = std::max(std::abs(box.min()[0] - axis), std::abs(box.max()[0] - axis));
+  const double radius = (1.0 + 1e-14) * std::hypot(across, beyond);
+  return Box3(Vec3(axis - radius, box.min()[1], begin - radius),
+    Vec3(axis + radius, box.max()[1], begin + radius));
+}
+
 bool BendMap::isOneToOneOver(const Box3& box) const
 {
   if (this->isIdentity() || box.isEmpty())
@@ -476,10 +499,13 @@ Box3 FramedWarp<Map>::imageBounds(const Box3& box) const
     [&](const Box3& cell)
     {
       const Vec3 center = frame_ * map_.forward(frameInverse_ * cell.center());
-      const Vec3 reach = map_.jacobianOver(transformed(cell, frameInverse_))
+      const Box3 local = transformed(cell, frameInverse_);
+      const Vec3 reach = map_.jacobianOver(local)
                            .between(frame_.linear(), frameInverse_.linear())
                            .extent(0.5 * cell.sizes());
-      return CellImage{ center, Box3(Vec3(center - reach), Vec3(center + reach)) };
+      const Box3 byRate(Vec3(center - reach), Vec3(center + reach));
+      const Box3 extent = widened(transformed(map_.forwardExtent(local), frame_));
+      return CellImage{ center, byRate.intersection(extent) };
     });
 }
 

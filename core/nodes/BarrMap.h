@@ -32,6 +32,8 @@ struct TwistMap
   std::optional<MatrixInterval> inverseJacobianOver(const Box3& box) const;
   /// Holds inverse() of the box: coarse, but also where inverse() jumps.
   Box3 inverseExtent(const Box3& box) const;
+  /// Holds forward() of the box: coarse, but also for the steepest rates.
+  Box3 forwardExtent(const Box3& box) const { return this->inverseExtent(box); }
 };
 
 /// Scales (n, b) by a factor that goes linearly from 1 at begin to `factor` at end. |J| = scale^2.
@@ -49,6 +51,7 @@ struct TaperMap
   MatrixInterval jacobianOver(const Box3& box) const;
   std::optional<MatrixInterval> inverseJacobianOver(const Box3& box) const;
   Box3 inverseExtent(const Box3& box) const;
+  Box3 forwardExtent(const Box3& box) const;
   ///@}
 };
 
@@ -73,6 +76,7 @@ struct BendMap
   MatrixInterval jacobianOver(const Box3& box) const;
   std::optional<MatrixInterval> inverseJacobianOver(const Box3& box) const;
   Box3 inverseExtent(const Box3& box) const;
+  Box3 forwardExtent(const Box3& box) const;
   ///@}
 
   /// True when inverse(forward(p)) = p all over the box: nothing in it overlaps when bent.

@@ -5,6 +5,7 @@
 #include "core/base/Scratch.h"
 #include "core/nodes/BlendHierarchy.h"
 #include "core/nodes/BlendSource.h"
+#include "core/nodes/EnumNames.h"
 #include "core/nodes/LatticeMesh.h"
 #include "core/nodes/Membership.h"
 #include "core/nodes/Operator.h"
@@ -30,8 +31,8 @@ constexpr std::size_t kMostTerms = 1 << 16;
 // More terms than this, and the surface bounds don't look at pairs.
 constexpr std::size_t kMostPaired = 4096;
 
-const std::array<const char*, 4> kMethodNames = { "automatic", "nodeBased", "primitiveBased",
-  "global" };
+const EnumNames<BlendMethod, 4> kMethods = { "Method", "method",
+  { "automatic", "nodeBased", "primitiveBased", "global" } };
 
 Box3 boundsOf(PointBatch points)
 {
@@ -309,6 +310,7 @@ private:
 
 void checkBlendOptions(const BlendOptions& options)
 {
+  kMethods.check(options.method);
   if (!(options.overlapThreshold >= 0.0 && options.overlapThreshold <= 1.0))
   {
     throw InvalidParameter("OverlapThreshold", options.overlapThreshold, "in [0, 1]");
@@ -317,21 +319,14 @@ void checkBlendOptions(const BlendOptions& options)
 
 void describeBlendOptions(const BlendOptions& options, Parameters& parameters)
 {
-  parameters.set("method", kMethodNames[static_cast<std::size_t>(options.method)]);
+  kMethods.describe(options.method, parameters);
   parameters.set("overlapThreshold", options.overlapThreshold);
 }
 
 BlendOptions blendOptionsFrom(const Parameters& parameters)
 {
   BlendOptions options;
-  const std::string method = parameters.getString("method");
-  const auto name = std::find(kMethodNames.begin(), kMethodNames.end(), method);
-  if (name == kMethodNames.end())
-  {
-    throw InvalidText("Parameter \"method\" is \"" + method +
-      "\"; it must be automatic, nodeBased, primitiveBased or global.");
-  }
-  options.method = static_cast<BlendMethod>(name - kMethodNames.begin());
+  options.method = kMethods.from(parameters);
   options.overlapThreshold = parameters.getDouble("overlapThreshold");
   return options;
 }

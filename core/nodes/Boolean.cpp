@@ -3,14 +3,18 @@
 
 #include "core/base/Error.h"
 #include "core/base/Scratch.h"
+#include "core/mesh/Dust.h"
 #include "core/nodes/BooleanSource.h"
+#include "core/nodes/EnumNames.h"
 #include "core/nodes/LatticeMesh.h"
 #include "core/nodes/Membership.h"
+#include "core/nodes/MeshLimits.h"
 #include "core/nodes/Operator.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 namespace hybridtree
@@ -18,29 +22,37 @@ namespace hybridtree
 namespace
 {
 
-const std::array<const char*, 3> kOperationNames = { "union", "intersection", "difference" };
-const std::array<const char*, 4> kFormNames = { "automatic", "minMax", "smooth", "paper" };
+const EnumNames<BooleanOperation, 3> kOperations = { "Operation", "operation",
+  { "union", "intersection", "difference" } };
+const EnumNames<BooleanForm, 4> kForms = { "Form", "form",
+  { "automatic", "minMax", "smooth", "paper" } };
 
-template <typename Enum, std::size_t N>
-Enum enumFrom(
-  const Parameters& parameters, const char* name, const std::array<const char*, N>& names)
-{
-  const std::string text = parameters.getString(name);
-  const auto found = std::find(names.begin(), names.end(), text);
-  if (found == names.end())
-  {
-    std::string allowed;
-    for (const char* candidate : names)
-    {
-      allowed += (allowed.empty() ? "" : ", ") + std::string(candidate);
-    }
-    throw InvalidText("Parameter \"" + std::string(name) + "\" is \"" + text +
-      "\"; it must be one of: " + allowed + ".");
-  }
-  return static_cast<Enum>(found - names.begin());
-}
+// Share of the edge length below which what a cut leaves behind is nothing but the lattice's noise.
+constexpr double kDust = 1e-4;
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+// Trees with more leaves are not compared: the paths to shared nodes may be many.
+constexpr int kMostCompared = 1000;
+
+bool isSameTree(const Node& a, const Node& b)
+{
+  if (&a == &b)
+  {
+    return true;
+  }
+  if (a.leafCount() != b.leafCount() || a.leafCount() > kMostCompared ||
+    std::strcmp(a.kind(), b.kind()) != 0 ||
+    !(a.influenceBounds().min() == b.influenceBounds().min()) ||
+    a.parameters().entries() != b.parameters().entries())
+  {
+    return false;
+  }
+  const std::vector<NodePtr> childrenA = a.children();
+  const std::vector<NodePtr> childrenB = b.children();
+  return std::equal(childrenA.begin(), childrenA.end(), childrenB.begin(), childrenB.end(),
+    [](const NodePtr& childA, const NodePtr& childB) { return isSameTree(*childA, *childB); });
+}
 
 // Signed distance to the union of two solids where their own distances tell it. Outside of both it
 // is the lesser. Inside of A alone it is A's, if B is no nearer: A's nearest surface point then
@@ -75,6 +87,10 @@ public:
       reachesOut ? BooleanOperation::Union : operation_);
     surface_ =
       combinedBounds(kept(*a_, a_->surfaceBounds()), kept(*b_, b_->surfaceBounds()), operation_);
+    if (source_.isNothing())
+    {
+      influence_ = surface_ = Box3();
+    }
   }
 
   void field(PointBatch points, double* value) const override { source_.field(points, value); }
@@ -155,15 +171,20 @@ public:
   Parameters parameters() const override
   {
     Parameters parameters;
-    parameters.set("operation", kOperationNames[static_cast<std::size_t>(operation_)]);
-    parameters.set("form", kFormNames[static_cast<std::size_t>(form_)]);
+    kOperations.describe(operation_, parameters);
+    kForms.describe(form_, parameters);
     return parameters;
   }
 
 protected:
   TriangleMesh makeMesh(double edgeLength, const Progress& progress) const override
   {
-    return latticeMesh(*this, edgeLength, progress);
+    TriangleMesh mesh = latticeMesh(*this, edgeLength, progress);
+    if (operation_ != BooleanOperation::Union)
+    {
+      dropDust(mesh, kDust * edgeLength);
+    }
+    return mesh;
   }
 
   NodePtr withChildren(std::vector<NodePtr> children) const override
@@ -242,11 +263,25 @@ private:
         break;
       case BooleanOperation::Intersection:
         box = a.intersection(b);
+        box = Boolean::isSliver(box, a, b) ? Box3() : box;
         break;
       case BooleanOperation::Difference:
         break;
     }
     return box.isEmpty() ? Box3() : box;
+  }
+
+  // What two boxes share that touch up to rounding: too thin to be meshed, and nothing as a solid.
+  static bool isSliver(const Box3& shared, const Box3& a, const Box3& b)
+  {
+    if (shared.isEmpty() || !holdsDigits(a) || !holdsDigits(b))
+    {
+      return false;
+    }
+    const double rounding = 4.0 * std::numeric_limits<double>::epsilon() *
+      std::max(largestCoordinate(a), largestCoordinate(b));
+    const double thinner = std::min(a.sizes().minCoeff(), b.sizes().minCoeff());
+    return !holdsDigits(shared) || (shared.sizes().minCoeff() <= rounding && thinner > rounding);
   }
 
   BooleanOperation operation_;
@@ -263,6 +298,13 @@ private:
 
 NodePtr makeBoolean(BooleanOperation operation, NodePtr a, NodePtr b, BooleanForm form)
 {
+  kOperations.check(operation);
+  kForms.check(form);
+  // Made twice, or read from two files: still one shape, whose difference is nothing.
+  if (a && b && isSameTree(*a, *b))
+  {
+    b = a;
+  }
   return std::make_shared<Boolean>(operation, std::move(a), std::move(b), form);
 }
 
@@ -270,8 +312,8 @@ NodePtr booleanFromParameters(
   const Parameters& parameters, const std::vector<NodePtr>& children, const MeshLookup&)
 {
   requireChildren("boolean", children, 2);
-  return makeBoolean(enumFrom<BooleanOperation>(parameters, "operation", kOperationNames),
-    children[0], children[1], enumFrom<BooleanForm>(parameters, "form", kFormNames));
+  return makeBoolean(
+    kOperations.from(parameters), children[0], children[1], kForms.from(parameters));
 }
 
 } // namespace hybridtree

@@ -167,6 +167,11 @@ BooleanSource::BooleanSource(BooleanOperation operation, BooleanForm form, Field
 
 void BooleanSource::field(PointBatch points, double* value) const
 {
+  if (this->isNothing())
+  {
+    fieldOf(nullptr, points, value);
+    return;
+  }
   ScratchArray other(points.size);
   askFields({ { a_.get(), value }, { b_.get(), other.data() } }, points);
   booleanField(operation_, form_, value, other.data(), value, points.size);
@@ -174,6 +179,11 @@ void BooleanSource::field(PointBatch points, double* value) const
 
 void BooleanSource::fieldAndGradient(PointBatch points, double* value, VectorBatch gradient) const
 {
+  if (this->isNothing())
+  {
+    fieldAndGradientOf(nullptr, points, value, gradient);
+    return;
+  }
   ScratchArray other(points.size);
   ScratchVectors otherGradient(points.size);
   const VectorBatch g = otherGradient.batch();
@@ -194,12 +204,20 @@ Interval BooleanSource::range(const Box3& box) const
   {
     return range_;
   }
+  if (this->isNothing())
+  {
+    return { 0.0, 0.0 };
+  }
   const Interval rangeA = rangeOf(a_.get(), box);
   return booleanRange(operation_, form_, rangeA, a_ == b_ ? rangeA : rangeOf(b_.get(), box));
 }
 
 FieldSourcePtr BooleanSource::restrictedTo(const Box3& box) const
 {
+  if (this->isNothing())
+  {
+    return nullptr;
+  }
   FieldSourcePtr a = restrictionOf(a_.get(), box);
   FieldSourcePtr b = a_ == b_ ? a : restrictionOf(b_.get(), box);
   return booleanSource(operation_, form_, std::move(a), std::move(b), box);

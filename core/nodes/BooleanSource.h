@@ -25,6 +25,9 @@ public:
   Interval range(const Box3& box) const override;
   FieldSourcePtr restrictedTo(const Box3& box) const override;
 
+  /// A solid less itself: a field of 0, where the formula would reach T all along its surface.
+  bool isNothing() const { return operation_ == BooleanOperation::Difference && a_ == b_; }
+
 private:
   BooleanOperation operation_;
   BooleanForm form_;

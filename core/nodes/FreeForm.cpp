@@ -3,6 +3,8 @@
 
 #include "core/base/Error.h"
 #include "core/nodes/DeformedMeshNode.h"
+#include "core/nodes/EnumNames.h"
+#include "core/nodes/MeshLimits.h"
 #include "core/nodes/WarpedNode.h"
 
 #include <cmath>
@@ -14,8 +16,8 @@ namespace
 
 static_assert(kLargestLattice == BernsteinVolume::kLargestSize);
 
-constexpr const char* kDeformedMesh = "deformedMesh";
-constexpr const char* kInverseMap = "inverseMap";
+const EnumNames<FieldFrom, 2> kFieldFrom = { "FieldFrom", "fieldFrom",
+  { "deformedMesh", "inverseMap" } };
 
 // Free-form deformation with the exact field f_A o w^-1.
 class InverseMapNode final : public WarpedNode
@@ -158,11 +160,8 @@ ControlLattice controlLatticeOf(const FreeFormWarp& warp, const Affine3& map)
 
 NodePtr make(NodePtr child, const FreeFormSetting& setting, const Affine3& map)
 {
-  if (!std::isfinite(setting.edgeLength) || setting.edgeLength < 0.0)
-  {
-    throw InvalidParameter("The edge length of the deformed mesh", setting.edgeLength,
-      "a finite length > 0, or 0 for the default");
-  }
+  kFieldFrom.check(setting.fieldFrom);
+  requireEdgeLength(setting.edgeLength);
   if (setting.fieldFrom == FieldFrom::InverseMap &&
     setting.warp->deformation()->folding() == BernsteinDeformation::Folding::None)
   {
@@ -198,7 +197,7 @@ Parameters FreeFormSetting::parameters() const
     "dimensions", std::vector<std::int64_t>(volume.sizes().begin(), volume.sizes().end()));
   parameters.set("frame", warp->frame());
   parameters.set("displacements", std::move(numbers));
-  parameters.set("fieldFrom", fieldFrom == FieldFrom::InverseMap ? kInverseMap : kDeformedMesh);
+  kFieldFrom.describe(fieldFrom, parameters);
   parameters.set("edgeLength", edgeLength);
   return parameters;
 }
@@ -285,12 +284,6 @@ NodePtr freeFormFromParameters(
   checkDisplacements(dimensions, displacements);
   const Affine3 frame = parameters.getAffine("frame");
   checkedFrame(frame.translation(), frame.linear());
-  const std::string from = parameters.getString("fieldFrom");
-  if (from != kDeformedMesh && from != kInverseMap)
-  {
-    throw InvalidText("\"fieldFrom\" of a free-form deformation is \"" + from +
-      "\"; it must be \"deformedMesh\" or \"inverseMap\".");
-  }
   const Affine3 map = parameters.has("map") ? parameters.getAffine("map") : Affine3::Identity();
   if (!map.matrix().allFinite() || map.linear().determinant() == 0.0)
   {
@@ -298,8 +291,7 @@ NodePtr freeFormFromParameters(
       "finite, with a determinant other than 0");
   }
   return make(children.front(),
-    settingOf(dimensions, frame, std::move(displacements),
-      from == kInverseMap ? FieldFrom::InverseMap : FieldFrom::DeformedMesh,
+    settingOf(dimensions, frame, std::move(displacements), kFieldFrom.from(parameters),
       parameters.getDouble("edgeLength")),
     map);
 }

@@ -2,12 +2,12 @@
 #include "core/nodes/Node.h"
 
 #include "core/base/Error.h"
+#include "core/nodes/MeshLimits.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <mutex>
-#include <sstream>
 
 namespace hybridtree
 {
@@ -16,50 +16,6 @@ namespace
 
 // Enough for a drag back and forth between two levels of detail, without hoarding.
 constexpr std::size_t kKeptMeshes = 4;
-
-// Squares and cubes of lengths between these neither overflow nor vanish.
-constexpr double kLargestCoordinate = 1e100;
-constexpr double kSmallestSize = 1e-100;
-
-// A shape smaller than this share of its distance from the origin has too few digits left for a
-// mesh: 1 % of it would be some ten units in the last place.
-constexpr double kSmallestShare = 1e3 * std::numeric_limits<double>::epsilon();
-
-std::string text(double value)
-{
-  std::ostringstream stream;
-  stream << value;
-  return stream.str();
-}
-
-// \throws InvalidGeometry when numbers of double precision cannot hold a mesh of a shape there.
-void requireRepresentable(const Box3& surface)
-{
-  // A box of no extent bounds no surface: what two solids share that touch in a point.
-  if (surface.isEmpty() || surface.sizes().maxCoeff() == 0.0)
-  {
-    return;
-  }
-  const double largest = surface.min().cwiseAbs().cwiseMax(surface.max().cwiseAbs()).maxCoeff();
-  if (!(largest <= kLargestCoordinate)) // also NaN
-  {
-    throw InvalidGeometry("The shape reaches out to a coordinate of " + text(largest) +
-      "; at most " + text(kLargestCoordinate) +
-      " can be meshed. Make its lengths and positions smaller.");
-  }
-  const double size = surface.sizes().maxCoeff();
-  if (size < kSmallestShare * largest)
-  {
-    throw InvalidGeometry("The shape is " + text(size) + " in size at a coordinate of " +
-      text(largest) + ", too far from the origin for double precision; its size must be at least " +
-      text(kSmallestShare * largest) + " there. Move it towards the origin or enlarge it.");
-  }
-  if (size < kSmallestSize)
-  {
-    throw InvalidGeometry("The shape is " + text(size) + " in size; at least " +
-      text(kSmallestSize) + " is needed for a mesh. Enlarge it.");
-  }
-}
 
 } // namespace
 
@@ -101,11 +57,7 @@ double Node::defaultEdgeLength() const
 
 MeshPtr Node::mesh(double edgeLength, const Progress& progress) const
 {
-  if (!std::isfinite(edgeLength) || edgeLength < 0.0)
-  {
-    throw InvalidParameter(
-      "EdgeLength", edgeLength, "a finite length > 0, or 0 for the bounding diagonal / 100");
-  }
+  requireEdgeLength(edgeLength);
   requireRepresentable(this->surfaceBounds());
   const double length = edgeLength > 0.0 ? edgeLength : this->defaultEdgeLength();
   // Held while meshing: a second thread that wants the same mesh waits for it instead of making it

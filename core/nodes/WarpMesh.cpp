@@ -6,10 +6,12 @@
 #include "core/base/Scratch.h"
 #include "core/mesh/Remesh.h"
 #include "core/mesh/SmoothNormals.h"
+#include "core/nodes/WarpImage.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 namespace hybridtree
 {
@@ -32,76 +34,32 @@ Edge edgeOf(const Triangle& triangle, int side)
   return { std::min(a, b), std::max(a, b) };
 }
 
-// Runs a batch function over points held as vectors, in parallel.
-void overBatches(std::vector<Vec3>& points, std::size_t begin,
-  const std::function<void(PointBatch, VectorBatch)>& map)
-{
-  parallelFor(points.size() - begin, kGrain,
-    [&](std::size_t from, std::size_t to)
-    {
-      ScratchVectors batch(to - from);
-      for (std::size_t k = from; k < to; ++k)
-      {
-        batch.batch().set(k - from, points[begin + k]);
-      }
-      map(batch.points(), batch.batch());
-      for (std::size_t k = from; k < to; ++k)
-      {
-        points[begin + k] = batch.batch()[k - from];
-      }
-    });
-}
-
-void mapForward(const SpaceWarp& warp, std::vector<Vec3>& points, std::size_t begin)
-{
-  overBatches(points, begin, [&](PointBatch from, VectorBatch to) { warp.forward(from, to); });
-}
-
-// J^-T n at each point, made unit again.
-void mapNormals(const SpaceWarp& warp, const std::vector<Vec3>& points, std::vector<Vec3>& normals)
-{
-  parallelFor(points.size(), kGrain,
-    [&](std::size_t begin, std::size_t end)
-    {
-      ScratchVectors place(end - begin);
-      ScratchVectors normal(end - begin);
-      for (std::size_t k = begin; k < end; ++k)
-      {
-        place.batch().set(k - begin, points[k]);
-        normal.batch().set(k - begin, normals[k]);
-      }
-      warp.pullBack(place.points(), normal.batch());
-      for (std::size_t k = begin; k < end; ++k)
-      {
-        normals[k] = normal.batch()[k - begin].stableNormalized();
-      }
-    });
-}
-
 // Splits the long edges of a mesh at their midpoints, where long is measured in the image under a
 // warp. Keeps track of where the corners of each triangle lie on their source triangle, which the
 // mesh itself only knows for one triangle around each point.
 class StretchRefiner
 {
 public:
-  StretchRefiner(TriangleMesh& mesh, const SpaceWarp& warp, double edgeLength, const Node& node)
+  StretchRefiner(TriangleMesh& mesh, const SpaceWarp& warp, double edgeLength, const Node& node,
+    const Progress& progress)
     : mesh_(mesh)
     , warp_(warp)
     , node_(node)
     , edgeLength_(edgeLength)
+    , progress_(progress)
     , image_(mesh.points)
     , leaf_(node.leafMesh())
+    , fresh_(mesh.triangles.size())
   {
-    mapForward(warp_, image_, 0);
-    this->requireCountable();
+    mapForward(warp_, image_, 0, progress_);
     this->findCorners();
+    std::iota(fresh_.begin(), fresh_.end(), std::size_t(0));
   }
 
-  void run(const Progress& progress)
+  void run()
   {
     for (int round = 0; round < kMaxRounds; ++round)
     {
-      progress.check();
       const std::vector<Edge> edges = this->longEdges();
       if (edges.empty())
       {
@@ -116,21 +74,6 @@ public:
 
 private:
   using Corners = std::array<Eigen::Vector2d, 3>;
-
-  void requireCountable() const
-  {
-    double twiceArea = 0.0;
-    for (const Triangle& t : mesh_.triangles)
-    {
-      twiceArea += (image_[t[1]] - image_[t[0]]).cross(image_[t[2]] - image_[t[0]]).norm();
-    }
-    const double estimate = twiceArea / (edgeLength_ * edgeLength_);
-    if (!(estimate < 1e8))
-    {
-      throw TooLarge("EdgeLength " + std::to_string(edgeLength_) + " would make about " +
-        std::to_string(estimate) + " triangles of the deformed mesh, more than 1e8; raise it.");
-    }
-  }
 
   void findCorners()
   {
@@ -175,11 +118,12 @@ private:
   {
     const double limit = kLongEdge * edgeLength_;
     std::vector<Edge> edges;
-    for (const Triangle& triangle : mesh_.triangles)
+    for (const std::size_t t : fresh_)
     {
+      this->lookForStop(t);
       for (int side = 0; side < 3; ++side)
       {
-        const Edge edge = edgeOf(triangle, side);
+        const Edge edge = edgeOf(mesh_.triangles[t], side);
         if ((image_[edge[0]] - image_[edge[1]]).squaredNorm() > limit * limit)
         {
           edges.push_back(edge);
@@ -203,7 +147,7 @@ private:
         quarters.push_back((1.0 - at) * mesh_.points[edge[0]] + at * mesh_.points[edge[1]]);
       }
     }
-    mapForward(warp_, quarters, 0);
+    mapForward(warp_, quarters, 0, progress_);
     std::vector<Edge> result;
     for (std::size_t k = 0; k < edges.size(); ++k)
     {
@@ -240,7 +184,7 @@ private:
     }
     if (mesh_.sourceTriangle.empty()) // else they already are where they belong: on the leaf
     {
-      projectOntoSurface(node_, 0.25 * longest, points, normals);
+      projectOntoSurface(node_, 0.25 * longest, points, normals, progress_);
     }
     mesh_.points.insert(mesh_.points.end(), points.begin(), points.end());
     mesh_.normals.insert(mesh_.normals.end(), normals.begin(), normals.end());
@@ -249,15 +193,17 @@ private:
       mesh_.vertexOrigin.resize(mesh_.points.size());
     }
     image_.insert(image_.end(), points.begin(), points.end());
-    mapForward(warp_, image_, first);
+    mapForward(warp_, image_, first, progress_);
   }
 
   void splitTriangles(const std::vector<Edge>& edges)
   {
     const std::int32_t first = static_cast<std::int32_t>(mesh_.points.size() - edges.size());
-    const std::size_t count = mesh_.triangles.size();
-    for (std::size_t t = 0; t < count; ++t)
+    std::vector<std::size_t> split;
+    std::size_t made = mesh_.triangles.size();
+    for (const std::size_t t : fresh_)
     {
+      this->lookForStop(t);
       std::array<std::int32_t, 3> middle{ -1, -1, -1 };
       for (int side = 0; side < 3; ++side)
       {
@@ -268,7 +214,24 @@ private:
           middle[side] = first + static_cast<std::int32_t>(found - edges.begin());
         }
       }
-      this->splitTriangle(t, middle);
+      if (middle != std::array<std::int32_t, 3>{ -1, -1, -1 })
+      {
+        this->splitTriangle(t, middle);
+        split.push_back(t);
+      }
+    }
+    for (; made < mesh_.triangles.size(); ++made)
+    {
+      split.push_back(made);
+    }
+    fresh_ = std::move(split);
+  }
+
+  void lookForStop(std::size_t step) const
+  {
+    if (step % kGrain == 0)
+    {
+      progress_.check();
     }
   }
 
@@ -302,10 +265,6 @@ private:
   std::vector<std::array<int, 3>> pattern(const std::array<std::int32_t, 6>& point) const
   {
     const int split = (point[3] >= 0) + (point[4] >= 0) + (point[5] >= 0);
-    if (split == 0)
-    {
-      return { { 0, 1, 2 } };
-    }
     if (split == 3)
     {
       return { { 3, 4, 5 }, { 0, 3, 5 }, { 3, 1, 4 }, { 5, 4, 2 } };
@@ -375,8 +334,12 @@ private:
   const SpaceWarp& warp_;
   const Node& node_;
   double edgeLength_;
+  const Progress& progress_;
   std::vector<Vec3> image_;
   MeshPtr leaf_;
+  // Triangles of the last round. Points never move, so what was left in one round is left in the
+  // next: only they can have edges to split.
+  std::vector<std::size_t> fresh_;
   std::vector<Corners> corners_; // per triangle, empty without provenance
 };
 
@@ -451,17 +414,19 @@ void newtonStep(const FieldSource& field, PointBatch points, VectorBatch moved)
 
 } // namespace
 
-void projectOntoSurface(
-  const FieldSource& field, double reach, std::vector<Vec3>& points, std::vector<Vec3>& normals)
+void projectOntoSurface(const FieldSource& field, double reach, std::vector<Vec3>& points,
+  std::vector<Vec3>& normals, const Progress& progress)
 {
   std::vector<Vec3> moved = points;
   for (int step = 0; step < kNewtonSteps; ++step)
   {
-    overBatches(moved, 0, [&](PointBatch from, VectorBatch to) { newtonStep(field, from, to); });
+    overBatches(
+      moved, 0, [&](PointBatch from, VectorBatch to) { newtonStep(field, from, to); }, progress);
   }
   parallelFor(points.size(), kGrain,
     [&](std::size_t begin, std::size_t end)
     {
+      progress.check();
       ScratchVectors place(end - begin);
       ScratchVectors gradient(end - begin);
       ScratchArray value(end - begin);
@@ -507,9 +472,11 @@ std::vector<Vec3> pointNormals(const TriangleMesh& mesh)
 TriangleMesh warpedMesh(const TriangleMesh& mesh, const SpaceWarp& warp, double edgeLength,
   const Node& node, const Progress& progress)
 {
+  requireCountableImage(mesh, warp, edgeLength, progress);
   TriangleMesh result = mesh;
-  StretchRefiner refiner(result, warp, edgeLength, node);
-  refiner.run(progress);
+  StretchRefiner refiner(result, warp, edgeLength, node, progress);
+  refiner.run();
+  progress.report(0.5);
   const double volume = signedVolume(result);
   if (!result.normals.empty())
   {
@@ -524,7 +491,7 @@ TriangleMesh warpedMesh(const TriangleMesh& mesh, const SpaceWarp& warp, double 
   }
   if (mend)
   {
-    mendShapes(result, edgeLength, progress);
+    mendShapes(result, edgeLength, ProgressPart(progress, 0.5, 1.0));
   }
   if (result.normals.size() != result.points.size())
   {

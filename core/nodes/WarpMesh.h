@@ -20,15 +20,15 @@ namespace hybridtree
 /// when the warp mirrors.
 ///
 /// \param mesh of `node`.
-/// \throws TooLarge when the edge length asks for more triangles than indices can count; Cancelled.
+/// \throws TooLarge when the area of the image foretells more than 2e7 triangles; Cancelled.
 TriangleMesh warpedMesh(const TriangleMesh& mesh, const SpaceWarp& warp, double edgeLength,
   const Node& node, const Progress& progress = Progress::none());
 
 /// Moves points onto f = T by Newton steps along the gradient, each by no more than `reach` in all;
 /// a point that does not get there stays where it was. Normals become -grad f / |grad f| at those
 /// that did.
-void projectOntoSurface(
-  const FieldSource& field, double reach, std::vector<Vec3>& points, std::vector<Vec3>& normals);
+void projectOntoSurface(const FieldSource& field, double reach, std::vector<Vec3>& points,
+  std::vector<Vec3>& normals, const Progress& progress = Progress::none());
 
 /// Area-weighted unit normals of the points, from the triangles around them.
 std::vector<Vec3> pointNormals(const TriangleMesh& mesh);

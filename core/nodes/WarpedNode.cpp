@@ -154,13 +154,15 @@ FieldSourcePtr restrictedWarp(const FieldSource& child, const SpaceWarp& warp, c
 }
 
 // Whether w^-1(w(q)) = q for all points of the mesh, to within a share of the edge length.
-bool isOneToOne(const SpaceWarp& warp, const TriangleMesh& mesh, double edgeLength)
+bool isOneToOne(
+  const SpaceWarp& warp, const TriangleMesh& mesh, double edgeLength, const Progress& progress)
 {
   constexpr std::size_t kGrain = 512;
   std::atomic<bool> good{ true };
   parallelFor(mesh.points.size(), kGrain,
     [&](std::size_t begin, std::size_t end)
     {
+      progress.check();
       ScratchVectors images(end - begin);
       for (std::size_t k = begin; k < end; ++k)
       {
@@ -182,12 +184,22 @@ bool isOneToOne(const SpaceWarp& warp, const TriangleMesh& mesh, double edgeLeng
 } // namespace
 
 WarpedNode::WarpedNode(NodePtr child, SpaceWarpPtr warp)
-  : Operator({ std::move(child) })
-  , child_(this->child().get())
-  , warp_(std::move(warp))
-  , influenceBounds_(warp_->imageBounds(child_->influenceBounds()))
-  , surfaceBounds_(warp_->imageBounds(child_->surfaceBounds()))
+  : Operator({ std::move(child) }), child_(this->child().get()), warp_(std::move(warp))
 {
+}
+
+Box3 WarpedNode::influenceBounds() const
+{
+  std::call_once(
+    influenceOnce_, [this] { influenceBounds_ = warp_->imageBounds(child_->influenceBounds()); });
+  return influenceBounds_;
+}
+
+Box3 WarpedNode::surfaceBounds() const
+{
+  std::call_once(
+    surfaceOnce_, [this] { surfaceBounds_ = warp_->imageBounds(child_->surfaceBounds()); });
+  return surfaceBounds_;
 }
 
 void WarpedNode::field(PointBatch points, double* value) const
@@ -237,7 +249,7 @@ void WarpedNode::sourceLeaf(PointBatch points, std::int32_t* leaf) const
 TriangleMesh WarpedNode::makeMesh(double edgeLength, const Progress& progress) const
 {
   const MeshPtr source = child_->mesh(edgeLength, ProgressPart(progress, 0.0, 0.5));
-  if (!isOneToOne(*warp_, *source, edgeLength))
+  if (!isOneToOne(*warp_, *source, edgeLength, progress))
   {
     return latticeMesh(*this, edgeLength, ProgressPart(progress, 0.5, 1.0));
   }

@@ -20,8 +20,8 @@ public:
   FieldSourcePtr restrictedTo(const Box3& box) const override;
   void membership(PointBatch points, std::int8_t* side) const override;
   void sourceLeaf(PointBatch points, std::int32_t* leaf) const override;
-  Box3 influenceBounds() const override { return influenceBounds_; }
-  Box3 surfaceBounds() const override { return surfaceBounds_; }
+  Box3 influenceBounds() const override;
+  Box3 surfaceBounds() const override;
   bool isNegative() const override { return child_->isNegative(); }
 
 protected:
@@ -37,8 +37,11 @@ protected:
 private:
   const Node* child_;
   SpaceWarpPtr warp_;
-  Box3 influenceBounds_;
-  Box3 surfaceBounds_;
+  // Found when asked for: a chain of affine maps need not find those of every image between.
+  mutable std::once_flag influenceOnce_;
+  mutable std::once_flag surfaceOnce_;
+  mutable Box3 influenceBounds_;
+  mutable Box3 surfaceBounds_;
 };
 
 } // namespace hybridtree

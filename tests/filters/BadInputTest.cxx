@@ -7,6 +7,7 @@
 #include "vtkHybridTreeAffineTransform.h"
 #include "vtkHybridTreeBend.h"
 #include "vtkHybridTreeBlend.h"
+#include "vtkHybridTreeBoolean.h"
 #include "vtkHybridTreeBox.h"
 #include "vtkHybridTreeCircle.h"
 #include "vtkHybridTreeFreeFormDeformation.h"
@@ -157,6 +158,63 @@ TEST(BadInput, Lattices)
   const double flat[9] = { 1, 0, 0, 0, 1, 0, 1, 1, 0 };
   ffd->SetLatticeAxes(flat);
   expectError(ffd, { "lattice box is flat" });
+}
+
+TEST(BadInput, ControlPointsThatDoNotExist)
+{
+  const auto a = ball();
+  vtkNew<vtkHybridTreeFreeFormDeformation> ffd;
+  ffd->SetInputConnection(a->GetOutputPort());
+  for (const double index : { 0.5, -1.0, 3.0, 1e300, kNaN })
+  {
+    ffd->ClearDisplacements();
+    ffd->AddDisplacement(1, 1, 1, 0.1, 0, 0);
+    ffd->AddDisplacement(1, 1, index, 0.1, 0, 0);
+    expectError(ffd, { "Index k of row 1", "whole number from 0 to 2" });
+  }
+  ffd->SetNumberOfDisplacements(3);
+  ffd->SetDisplacement(1, 1, 1, 1, 0.1, 0, 0);
+  expectError(ffd, { "row 2", "six numbers" });
+  ffd->SetDisplacement(2, 1, 1, 1, kNaN, 0, 0);
+  expectError(ffd, { "not finite" });
+  ffd->SetDisplacement(2, 1, 1, 1, 0.1, 0, 0);
+  ffd->Update();
+  expectSolid(ffd->GetOutput());
+}
+
+TEST(BadInput, ChoicesThatDoNotExist)
+{
+  const auto a = ball();
+  const auto b = rod();
+  a->SetFieldMode(2);
+  expectError(a, { "FieldMode", "2", "0 (by the surface) or 1 (by MaximumField)" });
+  a->SetFieldMode(0);
+  a->SetEdgeLength(-1.0);
+  expectError(a, { "EdgeLength", "-1", "> 0" });
+  a->SetEdgeLength(0.0);
+
+  vtkNew<vtkHybridTreeBlend> blend;
+  blend->AddInputConnection(a->GetOutputPort());
+  blend->AddInputConnection(b->GetOutputPort());
+  blend->SetMethod(4);
+  expectError(blend, { "Method", "4", "3 (global)" });
+  blend->SetMethod(0);
+  blend->SetOverlapThreshold(1.5);
+  expectError(blend, { "OverlapThreshold", "1.5", "[0, 1]" });
+
+  vtkNew<vtkHybridTreeBoolean> boolean;
+  boolean->SetInputConnection(0, a->GetOutputPort());
+  boolean->SetInputConnection(1, b->GetOutputPort());
+  boolean->SetOperation(3);
+  expectError(boolean, { "Operation", "3", "2 (difference)" });
+  boolean->SetOperation(0);
+  boolean->SetForm(-1);
+  expectError(boolean, { "Form", "-1", "0 (automatic)" });
+
+  vtkNew<vtkHybridTreeFreeFormDeformation> ffd;
+  ffd->SetInputConnection(a->GetOutputPort());
+  ffd->SetFieldFrom(2);
+  expectError(ffd, { "FieldFrom", "2", "1 (inverseMap)" });
 }
 
 TEST(BadInput, PointSetsNameTheReconstruction)

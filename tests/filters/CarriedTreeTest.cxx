@@ -3,9 +3,11 @@
 #include "tests/filters/Support.h"
 
 #include "core/tree/Serialize.h"
+#include "vtkCellData.h"
 #include "vtkCleanPolyData.h"
 #include "vtkClipPolyData.h"
 #include "vtkDecimatePro.h"
+#include "vtkDoubleArray.h"
 #include "vtkElevationFilter.h"
 #include "vtkFieldData.h"
 #include "vtkHybridTreeAffineTransform.h"
@@ -14,6 +16,7 @@
 #include "vtkHybridTreeBoolean.h"
 #include "vtkHybridTreeMeshField.h"
 #include "vtkPlane.h"
+#include "vtkPointData.h"
 #include "vtkSphereSource.h"
 #include "vtkTransform.h"
 #include "vtkTransformPolyDataFilter.h"
@@ -21,6 +24,9 @@
 #include "vtkXMLPolyDataWriter.h"
 
 #include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
 
 namespace hybridtree::test
 {
@@ -270,6 +276,115 @@ TEST(CarriedTree, ADamagedLeafIsAnError)
   node->SetInputData(damaged);
   node->Update();
   EXPECT_NE(messages.errors.find("triangle 5"), std::string::npos) << messages.errors;
+}
+
+/// A mesh leaf with point and cell data, as a file would bring it: no live tree.
+struct LoadedLeaf
+{
+  LoadedLeaf()
+  {
+    vtkNew<vtkSphereSource> sphere;
+    sphere->Update();
+    for (vtkDataSetAttributes* attributes :
+      { static_cast<vtkDataSetAttributes*>(sphere->GetOutput()->GetPointData()),
+        static_cast<vtkDataSetAttributes*>(sphere->GetOutput()->GetCellData()) })
+    {
+      vtkNew<vtkDoubleArray> heat;
+      heat->SetName("Heat");
+      heat->SetNumberOfTuples(attributes == sphere->GetOutput()->GetPointData()
+          ? sphere->GetOutput()->GetNumberOfPoints()
+          : sphere->GetOutput()->GetNumberOfPolys());
+      heat->Fill(1.0);
+      attributes->AddArray(heat);
+    }
+    vtkNew<vtkHybridTreeMeshField> field;
+    field->SetInputData(sphere->GetOutput());
+    field->Update();
+    hash = meshesOf(*field->GetTree()).front().first;
+    data->DeepCopy(field->GetOutput());
+    vtkNew<vtkStringArray> text;
+    text->DeepCopy(fields()->GetAbstractArray("HybridTree"));
+    text->SetName("HybridTree");
+    fields()->AddArray(text);
+  }
+
+  vtkFieldData* fields() { return data->GetFieldData(); }
+  vtkDataArray* part(const std::string& kind, const std::string& end = "")
+  {
+    return fields()->GetArray(("HybridTree" + kind + ":" + hash + end).c_str());
+  }
+  vtkStringArray* text()
+  {
+    return vtkStringArray::SafeDownCast(fields()->GetAbstractArray("HybridTree"));
+  }
+
+  vtkNew<vtkPolyData> data;
+  std::string hash;
+};
+
+TEST(CarriedTree, EachDamageIsNamed)
+{
+  using Damage = std::function<void(LoadedLeaf&)>;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto replaceText = [](LoadedLeaf& leaf, const std::string& from, const std::string& to)
+  {
+    std::string text = leaf.text()->GetValue(0);
+    text.replace(text.find(from), from.size(), to);
+    leaf.text()->SetValue(0, text);
+  };
+  const std::pair<Damage, std::string> damages[] = {
+    { [](LoadedLeaf&) {}, "" }, // whole, it works
+    { [](LoadedLeaf& leaf) { leaf.text()->SetValue(0, leaf.text()->GetValue(0).substr(0, 40)); },
+      "JSON" },
+    { [](LoadedLeaf& leaf) { leaf.text()->SetValue(0, ""); }, "JSON" },
+    { [](LoadedLeaf& leaf) { leaf.text()->SetNumberOfValues(1); }, "\"HybridTree\" is damaged" },
+    { [](LoadedLeaf& leaf) { leaf.text()->SetValue(1, "garbled"); }, "fingerprint" },
+    { [](LoadedLeaf& leaf)
+      {
+        vtkNew<vtkDoubleArray> numbers;
+        numbers->SetName("HybridTree");
+        leaf.fields()->AddArray(numbers);
+      },
+      "\"HybridTree\" is damaged" },
+    { [&](LoadedLeaf& leaf) { replaceText(leaf, "\"mesh\"", "\"mush\""); }, "not a kind of node" },
+    { [&](LoadedLeaf& leaf) { replaceText(leaf, "\"exponent\":2", "\"exponent\":1"); }, "xponent" },
+    { [](LoadedLeaf& leaf) { leaf.fields()->RemoveArray(leaf.part("Points")->GetName()); },
+      "Node 0" },
+    { [](LoadedLeaf& leaf) { leaf.fields()->RemoveArray(leaf.part("Triangles")->GetName()); },
+      "Node 0" },
+    { [=](LoadedLeaf& leaf) { leaf.part("Points")->SetComponent(3, 1, nan); }, "damaged" },
+    { [](LoadedLeaf& leaf) { leaf.part("Points")->SetNumberOfTuples(7); }, "triangle" },
+    { [](LoadedLeaf& leaf) { leaf.part("Triangles")->SetNumberOfTuples(7); }, "damaged" },
+    { [](LoadedLeaf& leaf) { leaf.part("Triangles")->SetComponent(2, 1, -1.0); }, "triangle 2" },
+    { [](LoadedLeaf& leaf)
+      {
+        const std::string name = leaf.part("Points")->GetName();
+        vtkNew<vtkDoubleArray> flat;
+        flat->SetName(name.c_str());
+        flat->SetNumberOfTuples(9);
+        flat->Fill(0.0);
+        leaf.fields()->AddArray(flat);
+      },
+      "three components" },
+    { [](LoadedLeaf& leaf) { leaf.part("PointData", ":Heat")->SetNumberOfTuples(3); },
+      "\"Heat\" has 3 rows" },
+    { [](LoadedLeaf& leaf) { leaf.part("CellData", ":Heat")->SetNumberOfTuples(0); },
+      "\"Heat\" has 0 rows" },
+  };
+  int number = 0;
+  for (const auto& [damage, complaint] : damages)
+  {
+    SCOPED_TRACE(number++);
+    LoadedLeaf leaf;
+    damage(leaf);
+    vtkNew<vtkHybridTreeAffineTransform> node;
+    const Messages messages(node);
+    node->SetInputData(leaf.data);
+    node->Update();
+    EXPECT_NE(messages.errors.find(complaint), std::string::npos) << messages.errors;
+    EXPECT_EQ(messages.errors.empty(), complaint.empty()) << messages.errors;
+    EXPECT_EQ(node->GetOutput()->GetNumberOfPoints() == 0, !complaint.empty());
+  }
 }
 
 TEST(CarriedTree, OtherFieldDataStays)
