@@ -61,7 +61,7 @@ leaning = HybridTreeFreeFormDeformation(
 )
 lattice = OutputPort(leaning, 1)
 picture(
-    view, leaning, os.path.join(folder, "4-deformed.png"), colour=GLAZE,
+    view, leaning, os.path.join(folder, "4-deformed.png"), colour=GLAZE, fit=True,
     extra=[(lattice, {"Representation": "Wireframe", "AmbientColor": [0.25, 0.25, 0.3], "LineWidth": 1.5})],
 )
 check_closed(leaning, "4 deformed kitten")

@@ -54,8 +54,9 @@ def look(view, direction, focus, distance, up=(0, 1, 0)):
     view.CameraParallelProjection = 0
 
 
-def picture(view, shown, path, colour=CLAY, extra=()):
-    """Show only `shown` (a surface in one colour) and `extra` (proxy, representation settings)."""
+def picture(view, shown, path, colour=CLAY, extra=(), fit=False):
+    """Show only `shown` (a surface in one colour) and `extra` (proxy, representation settings); `fit`
+    steps back until all of it is in this picture."""
     HideAll(view)
     display = Show(shown, view)
     display.Representation = "Surface"
@@ -69,8 +70,12 @@ def picture(view, shown, path, colour=CLAY, extra=()):
         other.ColorArrayName = ["POINTS", ""]
         for key, value in settings.items():
             setattr(other, key, value)
+    camera = list(view.CameraPosition), list(view.CameraFocalPoint)
+    if fit:
+        ResetCamera(view)
     Render(view)
     SaveScreenshot(path, view, ImageResolution=list(view.ViewSize))
+    view.CameraPosition, view.CameraFocalPoint = camera
     print("  picture", os.path.relpath(path))
 
 
