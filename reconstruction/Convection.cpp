@@ -4,7 +4,6 @@
 #include "reconstruction/FacetSize.h"
 #include "reconstruction/Front.h"
 #include "reconstruction/Regions.h"
-#include "reconstruction/SmallHandles.h"
 #include "reconstruction/SolidRepair.h"
 #include "reconstruction/Tetrahedralization.h"
 
@@ -12,17 +11,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace hybridtree
 {
 namespace
 {
 
+// Measured at the most: two and a half times this for points that fill a volume, whose many
+// tetrahedra no surface has.
+constexpr double kBytesPerPoint = 1300.0;
 // Tetrahedra of at least this size are told apart by the watershed; smaller ones are left to the
 // flow. Low, since the watershed weighs both sides and the flow only knows one.
 constexpr double kWide = 1.0;
-// Handles among cells of at most this size are the sampling's, not the object's.
-constexpr double kHandle = 3.0;
 
 void appendBoundary(const Tetrahedralization& tetrahedra, const std::vector<std::uint8_t>& inside,
   ReconstructedSurface& surface)
@@ -113,14 +114,13 @@ bool solidIsMissing(const Tetrahedralization& tetrahedra, const std::vector<std:
 std::vector<std::uint8_t> solid(
   const Tetrahedralization& tetrahedra, const ConvectionOptions& options, const Progress& progress)
 {
-  const FacetSize sizes(tetrahedra);
-  const std::vector<Region> regions = findRegions(tetrahedra, sizes, kWide, options.pocketFactor);
-  progress.check();
+  const FacetSize sizes(tetrahedra, progress);
+  const std::vector<Region> regions =
+    findRegions(tetrahedra, sizes, kWide, options.pocketFactor, progress);
   Front front(tetrahedra, sizes, regions);
   front.run(options.openPockets, progress);
   std::vector<std::uint8_t> inside = front.inside();
   repairSolid(tetrahedra, inside, progress);
-  removeSmallHandles(tetrahedra, sizes, kHandle, inside, progress);
   return inside;
 }
 
@@ -128,13 +128,29 @@ std::vector<std::uint8_t> solid(
 std::vector<std::uint8_t> solidFromHull(
   const Tetrahedralization& tetrahedra, const Progress& progress)
 {
-  const FacetSize sizes(tetrahedra);
+  const FacetSize sizes(tetrahedra, progress);
   std::vector<Region> regions(tetrahedra.cellCount(), Region::Surface);
   Front front(tetrahedra, sizes, regions);
   front.run(false, progress);
   std::vector<std::uint8_t> inside = front.inside();
   repairSolid(tetrahedra, inside, progress);
   return inside;
+}
+
+void checkMemory(std::size_t points, std::size_t limit)
+{
+  const double bytes = kBytesPerPoint * static_cast<double>(points);
+  if (bytes <= static_cast<double>(limit))
+  {
+    return;
+  }
+  const double mib = std::ldexp(1.0, 20);
+  std::ostringstream text;
+  text << "Reconstruction of " << points << " points takes some " << std::ceil(bytes / mib)
+       << " MiB of memory; the limit is " << std::floor(static_cast<double>(limit) / mib)
+       << " MiB, enough for " << std::floor(static_cast<double>(limit) / kBytesPerPoint)
+       << " points. Thin them by a larger Spacing.";
+  throw TooLarge(text.str());
 }
 
 } // namespace
@@ -144,9 +160,15 @@ ReconstructedSurface reconstruct(
 {
   if (!(options.pocketFactor > 1.0) || !std::isfinite(options.pocketFactor))
   {
-    throw InvalidParameter("pocketFactor", options.pocketFactor, "a finite number above 1");
+    throw InvalidParameter("PocketFactor", options.pocketFactor, "a finite number above 1");
   }
-  const Tetrahedralization tetrahedra(points, ProgressPart(progress, 0.0, 0.6));
+  checkMemory(points.size(), options.maxMemory);
+  const std::vector<std::int32_t> order = spatialOrder(points);
+  progress.check();
+  std::vector<Vec3> ordered(points.size());
+  std::transform(
+    order.begin(), order.end(), ordered.begin(), [&](std::int32_t point) { return points[point]; });
+  const Tetrahedralization tetrahedra(ordered, ProgressPart(progress, 0.0, 0.6));
   ReconstructedSurface surface;
   std::vector<std::uint8_t> inside = solid(tetrahedra, options, ProgressPart(progress, 0.6, 0.95));
   progress.check();
@@ -158,6 +180,11 @@ ReconstructedSurface reconstruct(
     inside = solidFromHull(tetrahedra, ProgressPart(progress, 0.95, 1.0));
   }
   appendBoundary(tetrahedra, inside, surface);
+  for (std::int32_t& point : surface.pointIds)
+  {
+    point = order[point];
+  }
+  progress.check();
   computeNormals(surface.mesh);
   return surface;
 }

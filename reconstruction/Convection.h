@@ -4,6 +4,7 @@
 #include "core/base/Progress.h"
 #include "core/mesh/TriangleMesh.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -20,6 +21,8 @@ struct ConvectionOptions
   /// mouth of a pocket whatever lies behind it; a smaller one only where what lies behind is not
   /// much wider. No unit, > 1, default 6. Raise it where the surface breaks in through a gap.
   double pocketFactor = 6.0;
+  /// Bytes that the work may take, estimated from the number of points before it starts.
+  std::size_t maxMemory = std::size_t(16) << 30;
 };
 
 /// A reconstructed surface: closed, 2-manifold, oriented outward, through points of the input.
@@ -44,19 +47,19 @@ struct ReconstructedSurface
 ///
 /// Departs from the paper where sampling is uneven, as when points are drawn at random:
 /// - which tetrahedra are empty space around the object and which are inside it is decided first,
-/// by
-///   a watershed over all facets (Regions.h), so that the flow never leaks through places of thin
-///   sampling; this also finds the pockets to be opened;
-/// - along the surface the flow never changes the topology, so thin walls are not torn;
-/// - the solid is mended to a manifold at the end by passing or taking back single tetrahedra, and
-///   loses handles that are no larger than the sampling (SmallHandles.h).
+///   by a watershed over all facets (Regions.h), so that the flow never leaks through places of
+///   thin sampling; this also finds the pockets to be opened;
+/// - the flow changes the topology last, and only where it is blocked by a membrane wider than the
+///   sampling (Front.h), so thin walls are not torn and uneven sampling makes no handles;
+/// - the few vertices where it meets itself are mended to a manifold at the end by passing or
+///   taking back single tetrahedra (SolidRepair.h).
 /// A cavity that is closed off all around, and a hole or wall about as thin as the points are far
 /// apart, may be lost.
 ///
 /// \param points in any order; coincident points count once. Cost O(n log n) for points on a
 /// surface, about 1 KB of memory a point.
 /// \throws InvalidGeometry for points that are not finite, fewer than four different ones, or all
-/// in one plane. \throws InvalidParameter. \throws Cancelled.
+/// in one plane. \throws InvalidParameter. \throws TooLarge before it starts. \throws Cancelled.
 ReconstructedSurface reconstruct(const std::vector<Vec3>& points,
   const ConvectionOptions& options = {}, const Progress& progress = Progress::none());
 

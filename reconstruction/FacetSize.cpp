@@ -4,6 +4,8 @@
 #include "core/base/Parallel.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
 
 namespace hybridtree
@@ -11,126 +13,144 @@ namespace hybridtree
 namespace
 {
 
-constexpr std::size_t kNeighbor = 6;
 constexpr std::size_t kGrain = 4096;
 
-struct Neighbor
+// The nearest Delaunay neighbours of a point, nearest first.
+class Nearest
 {
-  double distance;
-  std::int32_t vertex;
-  bool operator<(const Neighbor& other) const { return distance < other.distance; }
-};
-
-// The shortest kNeighbor Delaunay edges of a vertex, unordered but for the longest of them at the
-// end. \param all scratch
-void nearestNeighbors(const Tetrahedralization& tetrahedra, std::int32_t vertex,
-  std::vector<std::int32_t>& all, std::vector<Neighbor>& nearest)
-{
-  all.clear();
-  nearest.clear();
-  for (const std::int32_t cell : tetrahedra.star(vertex))
+public:
+  void find(const Tetrahedralization& tetrahedra, std::int32_t vertex)
   {
-    for (const std::int32_t other : tetrahedra.cell(cell))
+    count_ = 0;
+    const auto& points = tetrahedra.points();
+    for (const std::int32_t cell : tetrahedra.star(vertex))
     {
-      if (other != vertex && other != Tetrahedralization::kInfinite)
+      for (const std::int32_t other : tetrahedra.cell(cell))
       {
-        all.push_back(other);
+        if (other != vertex && other != Tetrahedralization::kInfinite)
+        {
+          this->offer((points[other] - points[vertex]).squaredNorm(), other);
+        }
       }
     }
   }
-  std::sort(all.begin(), all.end());
-  all.erase(std::unique(all.begin(), all.end()), all.end());
-  const auto& points = tetrahedra.points();
-  for (const std::int32_t other : all)
-  {
-    nearest.push_back({ (points[other] - points[vertex]).norm(), other });
-  }
-  const std::size_t count = std::min(kNeighbor, nearest.size());
-  if (count > 0)
-  {
-    std::nth_element(nearest.begin(), nearest.begin() + (count - 1), nearest.end());
-  }
-  nearest.resize(count);
-}
 
-template <typename Body>
-void forEachVertex(const Tetrahedralization& tetrahedra, const Body& body)
-{
-  parallelFor(tetrahedra.points().size(), kGrain,
-    [&](std::size_t begin, std::size_t end)
+  bool empty() const { return count_ == 0; }
+  double farthest() const { return std::sqrt(squared_[count_ - 1]); }
+  const std::int32_t* begin() const { return vertices_.data(); }
+  const std::int32_t* end() const { return vertices_.data() + count_; }
+
+private:
+  // A neighbour is offered once for each cell that it shares: most are too far, or known.
+  void offer(double squared, std::int32_t vertex)
+  {
+    if (count_ == kMost && squared >= squared_[kMost - 1])
     {
-      std::vector<std::int32_t> all;
-      std::vector<Neighbor> nearest;
-      for (std::size_t vertex = begin; vertex < end; ++vertex)
-      {
-        nearestNeighbors(tetrahedra, static_cast<std::int32_t>(vertex), all, nearest);
-        body(vertex, nearest);
-      }
-    });
+      return;
+    }
+    if (std::find(this->begin(), this->end(), vertex) != this->end())
+    {
+      return;
+    }
+    int at = count_ < kMost ? count_++ : kMost - 1;
+    for (; at > 0 && squared_[at - 1] > squared; --at)
+    {
+      squared_[at] = squared_[at - 1];
+      vertices_[at] = vertices_[at - 1];
+    }
+    squared_[at] = squared;
+    vertices_[at] = vertex;
+  }
+
+  static constexpr int kMost = 6;
+  std::array<double, kMost> squared_;
+  std::array<std::int32_t, kMost> vertices_;
+  int count_ = 0;
+};
+
+double squaredEdge(const std::vector<Vec3>& points, std::int32_t a, std::int32_t b)
+{
+  return (points[a] - points[b]).squaredNorm();
 }
 
 } // namespace
 
-FacetSize::FacetSize(const Tetrahedralization& tetrahedra) : tetrahedra_(tetrahedra)
+FacetSize::FacetSize(const Tetrahedralization& tetrahedra, const Progress& progress)
+  : tetrahedra_(tetrahedra)
 {
   const std::size_t count = tetrahedra.points().size();
   std::vector<double> sixth(count, std::numeric_limits<double>::infinity());
+  std::vector<Nearest> nearest(count);
+  parallelFor(count, kGrain,
+    [&](std::size_t begin, std::size_t end)
+    {
+      progress.check();
+      for (std::size_t vertex = begin; vertex < end; ++vertex)
+      {
+        nearest[vertex].find(tetrahedra, static_cast<std::int32_t>(vertex));
+        if (!nearest[vertex].empty())
+        {
+          sixth[vertex] = nearest[vertex].farthest();
+        }
+      }
+    });
   spacing_ = sixth;
-  forEachVertex(tetrahedra,
-    [&](std::size_t vertex, const std::vector<Neighbor>& nearest)
+  parallelFor(count, kGrain,
+    [&](std::size_t begin, std::size_t end)
     {
-      if (!nearest.empty())
+      progress.check();
+      for (std::size_t vertex = begin; vertex < end; ++vertex)
       {
-        sixth[vertex] = nearest.back().distance;
+        const Nearest& around = nearest[vertex];
+        double sum = sixth[vertex];
+        for (const std::int32_t other : around)
+        {
+          sum += sixth[other];
+        }
+        spacing_[vertex] = sum / static_cast<double>(around.end() - around.begin() + 1);
       }
     });
-  forEachVertex(tetrahedra,
-    [&](std::size_t vertex, const std::vector<Neighbor>& nearest)
-    {
-      double sum = sixth[vertex];
-      for (const Neighbor& neighbor : nearest)
-      {
-        sum += sixth[neighbor.vertex];
-      }
-      spacing_[vertex] = sum / static_cast<double>(nearest.size() + 1);
-    });
-}
-
-double FacetSize::ofEdge(std::int32_t a, std::int32_t b) const
-{
-  return (tetrahedra_.points()[a] - tetrahedra_.points()[b]).norm() /
-    std::min(spacing_[a], spacing_[b]);
 }
 
 double FacetSize::ofFacet(std::int32_t cell, int facet) const
 {
   const auto v = tetrahedra_.facet(cell, facet);
-  return std::max({ this->ofEdge(v[0], v[1]), this->ofEdge(v[1], v[2]), this->ofEdge(v[2], v[0]) });
+  double most = 0.0;
+  for (int k = 0; k < 3; ++k)
+  {
+    const std::int32_t a = v[k];
+    const std::int32_t b = v[(k + 1) % 3];
+    const double spacing = std::min(spacing_[a], spacing_[b]);
+    most = std::max(most, squaredEdge(tetrahedra_.points(), a, b) / (spacing * spacing));
+  }
+  return std::sqrt(most);
+}
+
+double FacetSize::certainOfFacet(std::int32_t cell, int facet) const
+{
+  const auto v = tetrahedra_.facet(cell, facet);
+  return this->lengthOfFacet(cell, facet) /
+    std::max({ spacing_[v[0]], spacing_[v[1]], spacing_[v[2]] });
 }
 
 double FacetSize::ofCell(std::int32_t cell) const
 {
-  const auto& v = tetrahedra_.cell(cell);
-  return std::max({ this->ofFacet(cell, 3), this->ofEdge(v[0], v[3]), this->ofEdge(v[1], v[3]),
-    this->ofEdge(v[2], v[3]) });
+  return std::max({ this->ofFacet(cell, 0), this->ofFacet(cell, 1), this->ofFacet(cell, 2) });
 }
 
 double FacetSize::lengthOfFacet(std::int32_t cell, int facet) const
 {
   const auto& p = tetrahedra_.points();
   const auto v = tetrahedra_.facet(cell, facet);
-  return std::max(
-    { (p[v[0]] - p[v[1]]).norm(), (p[v[1]] - p[v[2]]).norm(), (p[v[2]] - p[v[0]]).norm() });
+  return std::sqrt(std::max(
+    { squaredEdge(p, v[0], v[1]), squaredEdge(p, v[1], v[2]), squaredEdge(p, v[2], v[0]) }));
 }
 
 double FacetSize::lengthOfCell(std::int32_t cell) const
 {
-  double length = 0.0;
-  for (int facet = 0; facet < 3; ++facet) // three facets have all six edges
-  {
-    length = std::max(length, this->lengthOfFacet(cell, facet));
-  }
-  return length;
+  // Three facets have all six edges.
+  return std::max(
+    { this->lengthOfFacet(cell, 0), this->lengthOfFacet(cell, 1), this->lengthOfFacet(cell, 2) });
 }
 
 } // namespace hybridtree

@@ -3,28 +3,35 @@
 
 #include "reconstruction/Tetrahedralization.h"
 
+#include "core/base/Progress.h"
+
 #include <vector>
 
 namespace hybridtree
 {
 
-/// Sizes of edges, facets and tetrahedra relative to how densely points lie around them: the
-/// longest edge over the local spacing at its denser end. On the surface of an object about 1 to 4,
-/// even for points that were drawn at random; across empty space more.
+/// Sizes of facets and tetrahedra relative to how densely points lie around them: the longest edge
+/// over the local spacing. On the surface of an object about 1 to 4, even for points that were
+/// drawn at random; across empty space more.
 ///
 /// The local spacing at a point is the length of its sixth shortest Delaunay edge (the nearest
 /// points are among its Delaunay neighbours, so this needs no search), averaged over the points
-/// that near.
+/// that near. Threads may share it.
 class FacetSize
 {
 public:
-  explicit FacetSize(const Tetrahedralization& tetrahedra);
+  /// \throws Cancelled.
+  explicit FacetSize(
+    const Tetrahedralization& tetrahedra, const Progress& progress = Progress::none());
 
-  double ofEdge(std::int32_t a, std::int32_t b) const;
+  /// Over the spacing at each edge's denser end, the widest edge counts: what may be wide.
   /// \pre the cell is finite.
   double ofFacet(std::int32_t cell, int facet) const;
-  /// \pre the cell is finite.
+  /// The same of a tetrahedron. \pre the cell is finite.
   double ofCell(std::int32_t cell) const;
+  /// Over the spacing at the sparsest corner: what is wide for certain, since a cluster of points
+  /// at one corner does not widen it. At most ofFacet. \pre the cell is finite.
+  double certainOfFacet(std::int32_t cell, int facet) const;
 
   /// The same without regard to the spacing: the longest edge, in world units.
   double lengthOfFacet(std::int32_t cell, int facet) const;

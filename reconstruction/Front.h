@@ -16,19 +16,24 @@ namespace hybridtree
 
 /// The moving surface of convection: the boundary of the tetrahedra it has not passed, largest
 /// facet first. It passes
-/// - tetrahedra of the outside through any half-facet that is not oriented Gabriel, or through any
-///   at all if pockets are to be opened;
-/// - tetrahedra of the surface layer through half-facets that are not oriented Gabriel, where that
-///   leaves the topology alone: so it settles into the dents of the sampling but does not tear
-///   thin walls;
+/// - tetrahedra of the outside through any half-facet if pockets are to be opened, else through
+///   those that are not oriented Gabriel;
+/// - tetrahedra of the surface layer through half-facets that are not oriented Gabriel: so it
+///   settles into the dents of the sampling;
 /// - tetrahedra of the inside never: it cannot leak through places of thin sampling.
+///
+/// All of this only where it leaves the topology alone, so no unevenness of the sampling makes a
+/// handle. Where the surface has come around an object from both sides, it stands back to back with
+/// itself: a membrane that no such step removes. When nothing else is left to do, the widest
+/// membrane is torn, if it is wider than the sampling, and the surface goes on from there. So each
+/// handle and each gap between objects is one decision, made at its narrowest place.
 class Front
 {
 public:
   Front(const Tetrahedralization& tetrahedra, const FacetSize& sizes,
     const std::vector<Region>& regions);
 
-  /// Shrinks the front from the convex hull. Once.
+  /// Shrinks the front from the convex hull. Once. \throws Cancelled.
   void run(bool openPockets, const Progress& progress);
 
   /// Per cell: 1 if not passed; infinite cells 0.
@@ -40,7 +45,17 @@ private:
     double size;
     std::int32_t cell;
     std::int32_t facet;
-    bool operator<(const HalfFacet& other) const;
+    bool operator<(const HalfFacet& other) const
+    {
+      return size != other.size ? size < other.size
+        : cell != other.cell    ? cell < other.cell
+                                : facet < other.facet;
+    }
+  };
+  struct Waiting
+  {
+    HalfFacet at;
+    std::int32_t next;
   };
 
   bool isInside(std::int32_t cell) const { return inside_[cell] != 0; }
@@ -50,7 +65,11 @@ private:
   }
   void uncover(std::int32_t cell, int facet);
   void cancel(std::int32_t cell, int facet);
-  bool mayPass(const HalfFacet& at, bool openPockets);
+  bool mayEverPass(std::int32_t cell, int facet) const;
+  bool mayPass(const HalfFacet& at);
+  void hold(const HalfFacet& at, std::int32_t vertex);
+  void release(std::int32_t vertex);
+  void tear(std::int32_t cell);
   void pass(std::int32_t cell);
   bool keepsTopology(std::int32_t cell, std::int32_t& blocker) const;
   bool edgeIsBuried(std::int32_t cell, int i, int j) const;
@@ -58,10 +77,15 @@ private:
   const Tetrahedralization& tetrahedra_;
   const FacetSize& sizes_;
   const std::vector<Region>& regions_;
-  std::vector<std::uint8_t> inside_;         // per cell
-  std::vector<std::int32_t> surfaceFacets_;  // per point: facets of the surface around it
-  std::vector<std::vector<HalfFacet>> held_; // per point: facets that wait for it to be freed
+  bool openPockets_ = true;
+  std::vector<std::uint8_t> inside_;        // per cell
+  std::vector<std::int32_t> surfaceFacets_; // per point: facets of the surface around it
+  // Facets that wait for a point to be freed: lists in one pool, the first of each per point.
+  std::vector<std::int32_t> firstWaiting_;
+  std::vector<Waiting> waiting_;
+  std::int32_t unused_ = -1; // first of the pool's free entries
   std::priority_queue<HalfFacet> queue_;
+  std::priority_queue<HalfFacet> membranes_;
 };
 
 } // namespace hybridtree

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "reconstruction/Regions.h"
 
+#include "core/base/Parallel.h"
+
+#include <tbb/parallel_sort.h>
+
 #include <algorithm>
 #include <limits>
 #include <numeric>
-#include <tuple>
 
 namespace hybridtree
 {
@@ -15,6 +18,10 @@ namespace
 // region of its own. Plain lengths: sizes relative to the sampling jump from point to point.
 constexpr double kDepth = 1.25;
 
+constexpr std::size_t kGrain = 4096;
+// How many steps between two looks at whether to go on.
+constexpr std::size_t kBreath = 65536;
+
 struct Passage
 {
   double size;
@@ -22,29 +29,44 @@ struct Passage
   std::int32_t facet;
   bool operator<(const Passage& other) const
   {
-    return std::tie(other.size, cell, facet) < std::tie(size, other.cell, other.facet);
+    return size != other.size ? size > other.size
+      : cell != other.cell    ? cell < other.cell
+                              : facet < other.facet;
   }
 };
 
-std::vector<Passage> widePassages(
-  const Tetrahedralization& tetrahedra, const FacetSize& sizes, double wide)
+// Widest first.
+std::vector<Passage> widePassages(const Tetrahedralization& tetrahedra, const FacetSize& sizes,
+  double wide, const Progress& progress)
 {
-  std::vector<Passage> passages;
-  for (std::int32_t cell = 0; cell < tetrahedra.finiteCellCount(); ++cell)
-  {
-    for (int facet = 0; facet < 4; ++facet)
+  const auto count = static_cast<std::size_t>(tetrahedra.finiteCellCount());
+  std::vector<std::vector<Passage>> parts((count + kGrain - 1) / kGrain);
+  parallelFor(count, kGrain,
+    [&](std::size_t begin, std::size_t end)
     {
-      if (tetrahedra.neighbor(cell, facet) > cell)
+      progress.check();
+      for (auto cell = static_cast<std::int32_t>(begin); cell < static_cast<std::int32_t>(end);
+           ++cell)
       {
-        const double size = sizes.ofFacet(cell, facet);
-        if (size > wide)
+        for (int facet = 0; facet < 4; ++facet)
         {
-          passages.push_back({ size, cell, facet });
+          const double size =
+            tetrahedra.neighbor(cell, facet) > cell ? sizes.ofFacet(cell, facet) : 0.0;
+          if (size > wide)
+          {
+            parts[begin / kGrain].push_back({ size, cell, facet });
+          }
         }
       }
-    }
+    });
+  std::vector<Passage> passages;
+  for (std::vector<Passage>& part : parts)
+  {
+    passages.insert(passages.end(), part.begin(), part.end());
+    std::vector<Passage>().swap(part);
   }
-  std::sort(passages.begin(), passages.end());
+  progress.check();
+  tbb::parallel_sort(passages.begin(), passages.end());
   return passages;
 }
 
@@ -52,15 +74,20 @@ std::vector<Passage> widePassages(
 class Basins
 {
 public:
-  Basins(const Tetrahedralization& tetrahedra, const FacetSize& sizes)
+  Basins(const Tetrahedralization& tetrahedra, const FacetSize& sizes, const Progress& progress)
     : parent_(tetrahedra.cellCount())
     , depth_(tetrahedra.cellCount(), std::numeric_limits<double>::infinity())
   {
     std::iota(parent_.begin(), parent_.end(), 0);
-    for (std::int32_t cell = 0; cell < tetrahedra.finiteCellCount(); ++cell)
-    {
-      depth_[cell] = sizes.lengthOfCell(cell);
-    }
+    parallelFor(static_cast<std::size_t>(tetrahedra.finiteCellCount()), kGrain,
+      [&](std::size_t begin, std::size_t end)
+      {
+        progress.check();
+        for (std::size_t cell = begin; cell < end; ++cell)
+        {
+          depth_[cell] = sizes.lengthOfCell(static_cast<std::int32_t>(cell));
+        }
+      });
     // The outside is one.
     for (std::int32_t cell = tetrahedra.finiteCellCount(); cell < tetrahedra.cellCount(); ++cell)
     {
@@ -93,17 +120,25 @@ private:
 
 } // namespace
 
-std::vector<Region> findRegions(
-  const Tetrahedralization& tetrahedra, const FacetSize& sizes, double wide, double mouth)
+std::vector<Region> findRegions(const Tetrahedralization& tetrahedra, const FacetSize& sizes,
+  double wide, double mouth, const Progress& progress)
 {
-  Basins basins(tetrahedra, sizes);
-  for (const Passage& passage : widePassages(tetrahedra, sizes, wide))
+  Basins basins(tetrahedra, sizes, progress);
+  std::size_t step = 0;
+  for (const Passage& passage : widePassages(tetrahedra, sizes, wide, progress))
   {
+    if (++step % kBreath == 0)
+    {
+      progress.check();
+    }
     const std::int32_t here = basins.find(passage.cell);
     const std::int32_t there = basins.find(tetrahedra.neighbor(passage.cell, passage.facet));
+    if (here == there)
+    {
+      continue;
+    }
     const double shallow = std::min(basins.depth(here), basins.depth(there));
-    if (here != there &&
-      (passage.size > mouth || shallow < kDepth * sizes.lengthOfFacet(passage.cell, passage.facet)))
+    if (passage.size > mouth || shallow < kDepth * sizes.lengthOfFacet(passage.cell, passage.facet))
     {
       basins.join(here, there);
     }
@@ -112,6 +147,10 @@ std::vector<Region> findRegions(
   const std::int32_t outside = basins.find(tetrahedra.finiteCellCount());
   for (std::int32_t cell = 0; cell < tetrahedra.finiteCellCount(); ++cell)
   {
+    if (++step % kBreath == 0)
+    {
+      progress.check();
+    }
     if (sizes.ofCell(cell) <= wide)
     {
       regions[cell] = Region::Surface;

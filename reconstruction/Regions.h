@@ -4,6 +4,8 @@
 #include "reconstruction/FacetSize.h"
 #include "reconstruction/Tetrahedralization.h"
 
+#include "core/base/Progress.h"
+
 #include <cstdint>
 #include <vector>
 
@@ -27,7 +29,8 @@ enum class Region : std::uint8_t
 /// \param wide size of facets from which they are wide.
 /// \param mouth size from which a facet is a passage, whatever lies behind it; >= wide.
 /// \returns one region per cell.
-std::vector<Region> findRegions(
-  const Tetrahedralization& tetrahedra, const FacetSize& sizes, double wide, double mouth);
+/// \throws Cancelled.
+std::vector<Region> findRegions(const Tetrahedralization& tetrahedra, const FacetSize& sizes,
+  double wide, double mouth, const Progress& progress = Progress::none());
 
 } // namespace hybridtree

@@ -12,6 +12,8 @@ namespace
 {
 
 constexpr int kMostFlips = 6;
+// How many steps between two looks at whether to go on.
+constexpr std::size_t kBreath = 65536;
 
 // Cells around one vertex in clumps: those on the same side that hang together by facets.
 struct Clump
@@ -67,6 +69,7 @@ private:
   void change(const Clump& clump);
   void fillStar(std::int32_t vertex, const std::vector<Clump>& clumps);
   std::vector<Clump> clumpsAround(std::int32_t vertex);
+  std::size_t countClumps(std::int32_t vertex);
   bool onSurface(std::int32_t vertex) const;
   double reach(std::int32_t cell) const;
   void setSide(std::int32_t cell, bool inside);
@@ -77,6 +80,7 @@ private:
   std::vector<std::uint8_t>& inside_;
   const Progress& progress_;
   std::vector<std::uint8_t> unseen_; // all 0 between uses
+  std::vector<std::int32_t> stack_;
   std::vector<std::uint8_t> flips_;
   std::vector<std::uint8_t> waiting_;
   std::vector<std::int32_t> vertices_; // that wait
@@ -138,6 +142,39 @@ std::vector<Clump> SolidRepair::clumpsAround(std::int32_t vertex)
   return clumps;
 }
 
+// How many clumpsAround finds. Nearly all vertices need no more than this.
+std::size_t SolidRepair::countClumps(std::int32_t vertex)
+{
+  const auto star = tetrahedra_.star(vertex);
+  std::for_each(star.begin(), star.end(), [this](std::int32_t cell) { unseen_[cell] = 1; });
+  std::size_t clumps = 0;
+  for (const std::int32_t seed : star)
+  {
+    if (!unseen_[seed])
+    {
+      continue;
+    }
+    ++clumps;
+    unseen_[seed] = 0;
+    stack_.assign(1, seed);
+    while (!stack_.empty())
+    {
+      const std::int32_t cell = stack_.back();
+      stack_.pop_back();
+      for (int facet = 0; facet < 4; ++facet)
+      {
+        const std::int32_t beyond = tetrahedra_.neighbor(cell, facet);
+        if (unseen_[beyond] && inside_[beyond] == inside_[cell])
+        {
+          unseen_[beyond] = 0;
+          stack_.push_back(beyond);
+        }
+      }
+    }
+  }
+  return clumps;
+}
+
 bool SolidRepair::onSurface(std::int32_t vertex) const
 {
   const auto star = tetrahedra_.star(vertex);
@@ -176,23 +213,19 @@ bool SolidRepair::mendVertices(Mend mend)
     const std::int32_t vertex = vertices_.back();
     vertices_.pop_back();
     waiting_[vertex] = 0;
-    if (++step % 1024 == 0)
+    if (++step % 256 == 0)
     {
       progress_.check();
     }
-    if (!this->onSurface(vertex))
+    if (!this->onSurface(vertex) || this->countClumps(vertex) <= 2)
     {
       continue;
     }
-    const std::vector<Clump> clumps = this->clumpsAround(vertex);
-    if (clumps.size() > 2)
+    const std::size_t before = changes_;
+    (this->*mend)(vertex, this->clumpsAround(vertex));
+    if (changes_ == before)
     {
-      const std::size_t before = changes_;
-      (this->*mend)(vertex, clumps);
-      if (changes_ == before)
-      {
-        unmended_.push_back(vertex);
-      }
+      unmended_.push_back(vertex);
     }
   }
   return !unmended_.empty();
@@ -274,7 +307,7 @@ long SolidRepair::gain(const Clump& clump)
     long count = 0;
     for (const std::int32_t vertex : vertices)
     {
-      count += std::max<long>(0, static_cast<long>(this->clumpsAround(vertex).size()) - 2);
+      count += std::max<long>(0, static_cast<long>(this->countClumps(vertex)) - 2);
     }
     return count;
   };
@@ -329,6 +362,10 @@ void SolidRepair::removeCrumbsAndVoids()
     seen[seed] = 1;
     for (std::size_t k = 0; k < cells.size(); ++k)
     {
+      if (k % kBreath == 0)
+      {
+        progress_.check();
+      }
       for (int facet = 0; facet < 4; ++facet)
       {
         const std::int32_t beyond = tetrahedra_.neighbor(cells[k], facet);

@@ -46,34 +46,43 @@ void checkFinite(const std::vector<Vec3>& points)
 
 Delaunay triangulate(const std::vector<Vec3>& points, const Progress& progress)
 {
-  std::vector<Kernel::Point_3> sites(points.size());
-  std::transform(points.begin(), points.end(), sites.begin(), toCgal);
-  std::vector<std::size_t> order(points.size());
-  std::iota(order.begin(), order.end(), std::size_t(0));
-  // Neighbours in space become neighbours in time, so that each insertion starts near its place.
-  const auto siteMap = CGAL::make_property_map(sites);
-  using SortTraits = CGAL::Spatial_sort_traits_adapter_3<Kernel, decltype(siteMap)>;
-  CGAL::spatial_sort(order.begin(), order.end(), SortTraits(siteMap));
-
   Delaunay delaunay;
   Delaunay::Cell_handle near;
-  for (std::size_t k = 0; k < order.size(); ++k)
+  for (std::size_t k = 0; k < points.size(); ++k)
   {
     const std::size_t known = delaunay.number_of_vertices();
-    const Delaunay::Vertex_handle vertex = delaunay.insert(sites[order[k]], near);
+    const Delaunay::Vertex_handle vertex = delaunay.insert(toCgal(points[k]), near);
     if (delaunay.number_of_vertices() > known)
     {
-      vertex->info() = static_cast<std::int32_t>(order[k]);
+      vertex->info() = static_cast<std::int32_t>(k);
     }
     near = vertex->cell();
-    if (k % 4096 == 0)
+    if (k % 256 == 0)
     {
       progress.check();
-      progress.report(double(k) / double(order.size()));
+      progress.report(double(k) / double(points.size()));
     }
   }
   return delaunay;
 }
+
+// Looks now and then whether to go on.
+class Breath
+{
+public:
+  explicit Breath(const Progress& progress) : progress_(progress) {}
+  void operator()()
+  {
+    if (++steps_ % 65536 == 0)
+    {
+      progress_.check();
+    }
+  }
+
+private:
+  const Progress& progress_;
+  std::size_t steps_ = 0;
+};
 
 void checkSolid(const Delaunay& delaunay)
 {
@@ -92,21 +101,37 @@ void checkSolid(const Delaunay& delaunay)
 
 } // namespace
 
+std::vector<std::int32_t> spatialOrder(const std::vector<Vec3>& points)
+{
+  checkFinite(points);
+  std::vector<Kernel::Point_3> sites(points.size());
+  std::transform(points.begin(), points.end(), sites.begin(), toCgal);
+  std::vector<std::size_t> order(points.size());
+  std::iota(order.begin(), order.end(), std::size_t(0));
+  const auto siteMap = CGAL::make_property_map(sites);
+  using SortTraits = CGAL::Spatial_sort_traits_adapter_3<Kernel, decltype(siteMap)>;
+  CGAL::spatial_sort(order.begin(), order.end(), SortTraits(siteMap));
+  return { order.begin(), order.end() };
+}
+
 Tetrahedralization::Tetrahedralization(const std::vector<Vec3>& points, const Progress& progress)
   : points_(&points)
 {
   checkFinite(points);
   const Delaunay delaunay = triangulate(points, progress);
   checkSolid(delaunay);
+  Breath breath(progress);
 
   std::int32_t next = 0;
   for (const auto cell : delaunay.finite_cell_handles())
   {
+    breath();
     cell->info() = next++;
   }
   finiteCells_ = next;
   for (const auto cell : delaunay.all_cell_handles())
   {
+    breath();
     if (delaunay.is_infinite(cell))
     {
       cell->info() = next++;
@@ -116,6 +141,7 @@ Tetrahedralization::Tetrahedralization(const std::vector<Vec3>& points, const Pr
   neighbors_.resize(next);
   for (const auto cell : delaunay.all_cell_handles())
   {
+    breath();
     for (int i = 0; i < 4; ++i)
     {
       const auto vertex = cell->vertex(i);
@@ -123,14 +149,16 @@ Tetrahedralization::Tetrahedralization(const std::vector<Vec3>& points, const Pr
       neighbors_[cell->info()][i] = cell->neighbor(i)->info();
     }
   }
-  this->collectStars();
+  this->collectStars(progress);
 }
 
-void Tetrahedralization::collectStars()
+void Tetrahedralization::collectStars(const Progress& progress)
 {
+  Breath breath(progress);
   starOffset_.assign(points_->size() + 1, 0);
   for (const Cell& cell : cells_)
   {
+    breath();
     for (const std::int32_t vertex : cell)
     {
       if (vertex != kInfinite)
@@ -144,6 +172,7 @@ void Tetrahedralization::collectStars()
   std::vector<std::int32_t> next(starOffset_.begin(), starOffset_.end() - 1);
   for (std::int32_t c = 0; c < this->cellCount(); ++c)
   {
+    breath();
     for (const std::int32_t vertex : cells_[c])
     {
       if (vertex != kInfinite)

@@ -23,6 +23,7 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <limits>
 
 namespace
@@ -169,7 +170,9 @@ TEST(ReconstructionFilter, ReconstructsTheScannedOni)
   EXPECT_EQ(checkMesh(mesh).components, 1u);
 }
 
-std::string errorOf(const std::vector<Vec3>& points)
+using SetUp = std::function<void(vtkHybridTreeReconstruction*)>;
+
+std::string errorOf(const std::vector<Vec3>& points, const SetUp& setUp)
 {
   vtkNew<vtkPolyData> input;
   fill(input, points, VTK_DOUBLE);
@@ -179,48 +182,42 @@ std::string errorOf(const std::vector<Vec3>& points)
   filter->AddObserver(vtkCommand::ErrorEvent, errors);
   filter->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, executive);
   filter->SetInputData(input);
+  setUp(filter);
   filter->Update();
   EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
   return errors->GetErrorMessage();
 }
 
+void expectError(
+  const std::vector<Vec3>& points, const char* text, const SetUp& setUp = [](auto*) {})
+{
+  const std::string error = errorOf(points, setUp);
+  EXPECT_NE(error.find(text), std::string::npos) << error;
+}
+
 TEST(ReconstructionFilter, SaysWhatIsWrongWithThePoints)
 {
-  const auto says = [](const std::vector<Vec3>& points, const char* text)
-  { EXPECT_NE(errorOf(points).find(text), std::string::npos) << errorOf(points); };
-  says({ { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } },
+  expectError({ { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } },
     "The point set has 3 different points: a closed surface needs at least 4.");
-  says(std::vector<Vec3>(50, Vec3(1.0, 2.0, 3.0)),
+  expectError(std::vector<Vec3>(50, Vec3(1.0, 2.0, 3.0)),
     "The point set has 1 different points: a closed surface needs at least 4.");
   std::vector<Vec3> flat = randomSphere(50, 4);
   for (Vec3& p : flat)
   {
     p.z() = 0.0;
   }
-  says(flat, "All points lie on one plane: a closed surface needs points that span a volume.");
+  expectError(
+    flat, "All points lie on one plane: a closed surface needs points that span a volume.");
   std::vector<Vec3> broken = randomSphere(50, 5);
   broken[17].z() = std::numeric_limits<double>::quiet_NaN();
-  says(broken, "Point 17 ");
+  expectError(broken, "Point 17 ");
 }
 
-TEST(ReconstructionFilter, SaysWhatIsWrong)
+TEST(ReconstructionFilter, NamesTheParameterThatIsWrong)
 {
-  vtkNew<vtkPolyData> input;
-  fill(input, { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } }, VTK_DOUBLE);
-  vtkNew<vtkHybridTreeReconstruction> filter;
-  vtkNew<vtkTest::ErrorObserver> errors;
-  vtkNew<vtkTest::ErrorObserver> executive;
-  filter->AddObserver(vtkCommand::ErrorEvent, errors);
-  filter->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, executive);
-  filter->SetInputData(input);
-  filter->Update();
-  EXPECT_NE(errors->GetErrorMessage().find("at least 4"), std::string::npos);
-  EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
-  errors->Clear();
-  fill(input, randomSphere(100, 3), VTK_DOUBLE);
-  filter->SetSpacing(-1.0);
-  filter->Update();
-  EXPECT_NE(errors->GetErrorMessage().find("Spacing"), std::string::npos);
+  const std::vector<Vec3> points = randomSphere(100, 3);
+  expectError(points, "Spacing", [](auto* filter) { filter->SetSpacing(-1.0); });
+  expectError(points, "PocketFactor", [](auto* filter) { filter->SetPocketFactor(0.5); });
 }
 
 } // namespace
