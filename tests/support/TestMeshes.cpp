@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <map>
 #include <memory>
 #include <sstream>
@@ -171,27 +172,32 @@ std::optional<TriangleMesh> demoMesh(const std::string& name)
   std::istringstream stream(text);
   std::string magic;
   std::size_t points = 0;
-  std::size_t triangles = 0;
+  std::size_t faces = 0;
   std::size_t edges = 0;
-  if (!(stream >> magic >> points >> triangles >> edges) || magic != "OFF")
+  if (!(stream >> magic >> points >> faces >> edges) || magic != "OFF")
   {
     return std::nullopt;
   }
   TriangleMesh mesh;
   mesh.points.resize(points);
-  mesh.triangles.resize(triangles);
   for (Vec3& p : mesh.points)
   {
     stream >> p.x() >> p.y() >> p.z();
   }
-  for (Triangle& corner : mesh.triangles)
+  for (std::size_t k = 0; k < faces; ++k)
   {
-    int count = 0;
-    stream >> count >> corner[0] >> corner[1] >> corner[2];
-    if (count != 3)
+    std::size_t count = 0;
+    stream >> count;
+    std::vector<std::int32_t> corner(stream && count <= points ? count : 0);
+    for (std::int32_t& c : corner)
     {
-      return std::nullopt;
+      stream >> c;
     }
+    for (std::size_t c = 2; c < corner.size(); ++c)
+    {
+      mesh.triangles.push_back({ corner[0], corner[c - 1], corner[c] });
+    }
+    stream.ignore(std::numeric_limits<std::streamsize>::max(), '\n'); // a colour may follow
   }
   return stream ? std::optional<TriangleMesh>(mesh) : std::nullopt;
 }
