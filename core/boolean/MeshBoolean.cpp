@@ -4,6 +4,7 @@
 #include "core/base/Error.h"
 #include "core/base/Parallel.h"
 #include "core/boolean/Assemble.h"
+#include "core/boolean/CleanResult.h"
 #include "core/boolean/CutCurves.h"
 #include "core/boolean/CutFaces.h"
 #include "core/boolean/MeshSides.h"
@@ -91,7 +92,9 @@ MeshBooleanResult cut(MeshOperation operation, const MeshOperand& a, const MeshO
     nothing.usable = false;
     return nothing;
   }
-  return assemble(operands, keep, curves, sides, faces);
+  MeshBooleanResult result = assemble(operands, keep, curves, sides, faces);
+  cleanResult(result);
+  return result;
 }
 
 MeshBooleanResult cutOrRetry(

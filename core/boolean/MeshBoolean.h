@@ -57,8 +57,9 @@ struct MeshBooleanResult
 /// Two closed surfaces, each without crossing itself, give a closed, consistently oriented
 /// 2-manifold, also where they coincide, touch or share edges and vertices: topology is decided
 /// exactly, for operands that are moved by less than anything (PerturbedPredicates.h), in such a
-/// direction that what touches merges and A - A is empty. Then points are rounded. Points and
-/// triangles away from the cut are copied.
+/// direction that what touches merges and A - A is empty. Then points are rounded, and what
+/// has neither length nor height goes (CleanResult.h). Points and triangles away from the cut are
+/// copied.
 ///
 /// Departs from [HT] 5.3: sides spread from the cut over whole parts of a mesh; where no cut comes
 /// by, a ray tells, with exact predicates. So no membership is asked for.

@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/boolean/CleanResult.h"
+
+#include "core/boolean/FlatTriangles.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace hybridtree
+{
+namespace
+{
+
+constexpr double kTolerance = 0x1p-46;
+
+class Cleaner
+{
+public:
+  explicit Cleaner(MeshBooleanResult& result) : result_(result), mesh_(result.mesh) {}
+
+  void run()
+  {
+    double largest = 0.0;
+    for (const Vec3& p : mesh_.points)
+    {
+      largest = std::max(largest, p.cwiseAbs().maxCoeff());
+    }
+    tolerance_ = kTolerance * largest;
+    if (!this->markFlat())
+    {
+      return;
+    }
+    becomes_.resize(mesh_.points.size());
+    std::iota(becomes_.begin(), becomes_.end(), 0);
+    this->dropThinComponents();
+    this->removeFlat();
+    this->compact();
+  }
+
+private:
+  bool isGone(const Triangle& t) const { return t[0] < 0; }
+
+  bool isCut(const Triangle& corner) const
+  {
+    return std::any_of(corner.begin(), corner.end(),
+      [&](std::int32_t point) { return std::size_t(point) >= result_.firstCut; });
+  }
+
+  // Marks the points of flat triangles.
+  bool markFlat()
+  {
+    near_.assign(mesh_.points.size(), 0);
+    bool found = false;
+    for (const Triangle& c : mesh_.triangles)
+    {
+      if (this->isCut(c) &&
+        isFlat(mesh_.points[std::size_t(c[0])], mesh_.points[std::size_t(c[1])],
+          mesh_.points[std::size_t(c[2])], tolerance_))
+      {
+        found = true;
+        for (const std::int32_t point : c)
+        {
+          near_[std::size_t(point)] = 1;
+        }
+      }
+    }
+    return found;
+  }
+
+  // By points that triangles share.
+  std::vector<std::int32_t> components() const
+  {
+    std::vector<std::int32_t> parent(mesh_.points.size());
+    std::iota(parent.begin(), parent.end(), 0);
+    const auto find = [&](std::int32_t v)
+    {
+      while (parent[std::size_t(v)] != v)
+      {
+        v = parent[std::size_t(v)] = parent[std::size_t(parent[std::size_t(v)])];
+      }
+      return v;
+    };
+    for (const Triangle& c : mesh_.triangles)
+    {
+      for (const std::int32_t point : { c[1], c[2] })
+      {
+        const auto [low, high] = std::minmax({ find(c[0]), find(point) });
+        parent[std::size_t(high)] = low;
+      }
+    }
+    for (std::size_t v = 0; v < parent.size(); ++v)
+    {
+      parent[v] = find(std::int32_t(v));
+    }
+    return parent;
+  }
+
+  // Components whose volume is less than the tolerance times their area: nothing is between.
+  void dropThinComponents()
+  {
+    const std::vector<std::int32_t> component = this->components();
+    std::vector<double> volume(mesh_.points.size(), 0.0);
+    std::vector<double> area(mesh_.points.size(), 0.0);
+    for (const Triangle& c : mesh_.triangles)
+    {
+      const std::size_t root = std::size_t(component[std::size_t(c[0])]);
+      const Vec3& origin = mesh_.points[root];
+      const Vec3 p = mesh_.points[std::size_t(c[0])] - origin;
+      const Vec3 q = mesh_.points[std::size_t(c[1])] - origin;
+      const Vec3 r = mesh_.points[std::size_t(c[2])] - origin;
+      volume[root] += p.dot(q.cross(r)) / 6.0;
+      area[root] += 0.5 * (q - p).cross(r - p).norm();
+    }
+    for (Triangle& c : mesh_.triangles)
+    {
+      const std::size_t root = std::size_t(component[std::size_t(c[0])]);
+      if (std::abs(volume[root]) <= tolerance_ * area[root])
+      {
+        c.fill(-1);
+      }
+    }
+  }
+
+  // Two rings around the flat triangles: those in the inner one may change.
+  void removeFlat()
+  {
+    for (char ring = 2; ring <= 3; ++ring)
+    {
+      std::vector<char> grown = near_;
+      for (const Triangle& c : mesh_.triangles)
+      {
+        if (!this->isGone(c) &&
+          std::any_of(
+            c.begin(), c.end(), [&](std::int32_t point) { return near_[std::size_t(point)] != 0; }))
+        {
+          for (const std::int32_t point : c)
+          {
+            char& mark = grown[std::size_t(point)];
+            mark = mark == 0 ? ring : mark;
+          }
+        }
+      }
+      near_.swap(grown);
+    }
+    std::vector<std::int32_t> part;
+    std::vector<Triangle> corners;
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
+    {
+      const Triangle& c = mesh_.triangles[t];
+      if (!this->isGone(c) &&
+        std::any_of(c.begin(), c.end(),
+          [&](std::int32_t point)
+          { return near_[std::size_t(point)] == 1 || near_[std::size_t(point)] == 2; }))
+      {
+        part.push_back(std::int32_t(t));
+        corners.push_back(c);
+      }
+    }
+    const auto rank = [&](std::int32_t point)
+    { return std::size_t(point) >= result_.firstCut ? 1 : 0; };
+    FlatTriangles flat(mesh_.points, std::move(corners), rank, tolerance_);
+    flat.remove();
+    this->writeBack(part, flat);
+  }
+
+  void writeBack(const std::vector<std::int32_t>& part, const FlatTriangles& flat)
+  {
+    const std::vector<std::int8_t> operand = result_.sourceOperand;
+    const std::vector<std::int32_t> source = result_.sourceTriangle;
+    for (std::size_t k = 0; k < part.size(); ++k)
+    {
+      const std::size_t t = std::size_t(part[k]);
+      const std::size_t from = std::size_t(part[std::size_t(flat.place()[k])]);
+      mesh_.triangles[t] = flat.triangles()[k];
+      result_.sourceOperand[t] = operand[from];
+      result_.sourceTriangle[t] = source[from];
+    }
+    for (const std::array<std::int32_t, 2>& merge : flat.merged())
+    {
+      becomes_[std::size_t(merge[0])] = merge[1];
+    }
+  }
+
+  std::int32_t lastOf(std::int32_t point) const
+  {
+    while (becomes_[std::size_t(point)] != point)
+    {
+      point = becomes_[std::size_t(point)];
+    }
+    return point;
+  }
+
+  void compact()
+  {
+    std::size_t kept = 0;
+    std::vector<std::int32_t> place(mesh_.points.size(), -1);
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
+    {
+      const Triangle c = mesh_.triangles[t];
+      if (this->isGone(c))
+      {
+        continue;
+      }
+      for (const std::int32_t point : c)
+      {
+        place[std::size_t(point)] = 0;
+      }
+      mesh_.triangles[kept] = c;
+      result_.sourceOperand[kept] = result_.sourceOperand[t];
+      result_.sourceTriangle[kept++] = result_.sourceTriangle[t];
+    }
+    mesh_.triangles.resize(kept);
+    result_.sourceOperand.resize(kept);
+    result_.sourceTriangle.resize(kept);
+    this->compactPoints(place);
+    for (Triangle& c : mesh_.triangles)
+    {
+      for (std::int32_t& point : c)
+      {
+        point = place[std::size_t(point)];
+      }
+    }
+    this->compactCurves(place);
+  }
+
+  // place: -1 for a point that goes; the others get their new number.
+  void compactPoints(std::vector<std::int32_t>& place)
+  {
+    std::array<std::size_t, 3> count{};
+    const std::size_t firstOfB = result_.firstOfB;
+    const std::size_t firstCut = result_.firstCut;
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < place.size(); ++k)
+    {
+      if (place[k] < 0)
+      {
+        continue;
+      }
+      const std::size_t kind = k < firstOfB ? 0 : k < firstCut ? 1 : 2;
+      if (kind < 2)
+      {
+        result_.sourcePoint[kept] = result_.sourcePoint[k];
+      }
+      else
+      {
+        result_.cutPoints[count[2]] = result_.cutPoints[k - firstCut];
+      }
+      ++count[kind];
+      mesh_.points[kept] = mesh_.points[k];
+      place[k] = std::int32_t(kept++);
+    }
+    mesh_.points.resize(kept);
+    result_.firstOfB = count[0];
+    result_.firstCut = count[0] + count[1];
+    result_.sourcePoint.resize(result_.firstCut);
+    result_.cutPoints.resize(count[2]);
+  }
+
+  // Curves of what has gone go; steps without length too.
+  void compactCurves(const std::vector<std::int32_t>& place)
+  {
+    std::vector<std::vector<std::int32_t>> curves;
+    for (const std::vector<std::int32_t>& curve : result_.curves)
+    {
+      std::vector<std::int32_t> now;
+      for (const std::int32_t old : curve)
+      {
+        const std::int32_t point = place[std::size_t(this->lastOf(old))];
+        if (point >= 0 && (now.empty() || now.back() != point))
+        {
+          now.push_back(point);
+        }
+      }
+      if (now.size() > 1)
+      {
+        curves.push_back(std::move(now));
+      }
+    }
+    result_.curves = std::move(curves);
+  }
+
+  MeshBooleanResult& result_;
+  TriangleMesh& mesh_;
+  double tolerance_ = 0.0;
+  std::vector<char> near_; // per point: 1 of a flat triangle, 2 and 3 of the rings around
+  std::vector<std::int32_t> becomes_;
+};
+
+} // namespace
+
+void cleanResult(MeshBooleanResult& result)
+{
+  Cleaner(result).run();
+}
+
+} // namespace hybridtree

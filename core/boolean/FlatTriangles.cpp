@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/boolean/FlatTriangles.h"
+
+#include "core/mesh/MeshLinks.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <unordered_map>
+#include <utility>
+
+namespace hybridtree
+{
+namespace
+{
+
+constexpr int kRounds = 40;
+
+double heightOf(const Vec3& a, const Vec3& b, const Vec3& c)
+{
+  const double longest =
+    std::max({ (b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm() });
+  return longest > 0.0 ? (b - a).cross(c - a).norm() / std::sqrt(longest) : 0.0;
+}
+
+} // namespace
+
+bool isFlat(const Vec3& a, const Vec3& b, const Vec3& c, double tolerance)
+{
+  return !(heightOf(a, b, c) > tolerance);
+}
+
+// Works on points numbered anew.
+class FlatTriangles::Worker
+{
+public:
+  using Index = MeshLinks::Index;
+
+  Worker(FlatTriangles& owner, const std::vector<std::int32_t>& pointOf,
+    const std::vector<Triangle>& local)
+    : owner_(owner), pointOf_(pointOf), links_(local, pointOf.size())
+  {
+  }
+
+  void run()
+  {
+    bool changed = true;
+    for (int round = 0; round < kRounds && changed; ++round)
+    {
+      changed = false;
+      for (std::size_t t = 0; t < links_.triangleCount(); ++t)
+      {
+        changed = (this->isFlatNow(t) && (this->collapse(t) || this->flip(t))) || changed;
+      }
+    }
+    for (std::size_t t = 0; t < links_.triangleCount(); ++t)
+    {
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        const Index point = links_.triangle(t)[k];
+        owner_.triangles_[t][k] = point < 0 ? -1 : pointOf_[std::size_t(point)];
+      }
+    }
+  }
+
+private:
+  const Vec3& at(Index point) const
+  {
+    return owner_.points_[std::size_t(pointOf_[std::size_t(point)])];
+  }
+
+  double height(Index a, Index b, Index c) const
+  {
+    return heightOf(this->at(a), this->at(b), this->at(c));
+  }
+
+  bool isFlatNow(std::size_t t) const
+  {
+    const Triangle& c = links_.triangle(t);
+    return !links_.isRemoved(t) && !(this->height(c[0], c[1], c[2]) > owner_.tolerance_);
+  }
+
+  double length(Index h) const
+  {
+    return (this->at(links_.to(h)) - this->at(links_.from(h))).norm();
+  }
+
+  bool collapse(std::size_t t)
+  {
+    for (Index k = 0; k < 3; ++k)
+    {
+      Index h = 3 * Index(t) + k;
+      if (!(this->length(h) <= owner_.tolerance_) || !links_.canCollapse(h))
+      {
+        continue;
+      }
+      const auto order = [&](Index point)
+      {
+        const std::int32_t global = pointOf_[std::size_t(point)];
+        return std::make_pair(owner_.rank_(global), global);
+      };
+      if (order(links_.from(h)) < order(links_.to(h)))
+      {
+        h = links_.twin(h);
+      }
+      owner_.merged_.push_back(
+        { pointOf_[std::size_t(links_.from(h))], pointOf_[std::size_t(links_.to(h))] });
+      links_.collapse(h);
+      return true;
+    }
+    return false;
+  }
+
+  // Over the longest side into the neighbour, which the flat triangle's apex then divides.
+  bool flip(std::size_t t)
+  {
+    Index h = 3 * Index(t);
+    for (Index k = 1; k < 3; ++k)
+    {
+      h = this->length(3 * Index(t) + k) > this->length(h) ? 3 * Index(t) + k : h;
+    }
+    if (links_.twin(h) == MeshLinks::kNone || !links_.canFlip(h))
+    {
+      return false;
+    }
+    const Index g = links_.twin(h);
+    const Index a = links_.from(h);
+    const Index b = links_.to(h);
+    const Index c = links_.opposite(h);
+    const Index d = links_.opposite(g);
+    const double neighbour = this->height(b, a, d);
+    const Vec3 normal = (this->at(a) - this->at(b)).cross(this->at(d) - this->at(b));
+    const auto isTurned = [&](Index p, Index q, Index r)
+    { return (this->at(q) - this->at(p)).cross(this->at(r) - this->at(p)).dot(normal) < 0.0; };
+    if (neighbour > owner_.tolerance_ && (isTurned(d, b, c) || isTurned(c, a, d)))
+    {
+      return false;
+    }
+    const double worst = std::min(this->height(d, b, c), this->height(c, a, d));
+    if (!(worst > owner_.tolerance_) && !((this->at(c) - this->at(d)).norm() < this->length(h)))
+    {
+      return false;
+    }
+    owner_.place_[std::size_t(h / 3)] = owner_.place_[std::size_t(g / 3)];
+    links_.flip(h);
+    return true;
+  }
+
+  FlatTriangles& owner_;
+  const std::vector<std::int32_t>& pointOf_;
+  MeshLinks links_;
+};
+
+FlatTriangles::FlatTriangles(const std::vector<Vec3>& points, std::vector<Triangle> triangles,
+  std::function<int(std::int32_t)> rank, double tolerance)
+  : points_(points)
+  , triangles_(std::move(triangles))
+  , rank_(std::move(rank))
+  , tolerance_(tolerance)
+  , place_(triangles_.size())
+{
+  std::iota(place_.begin(), place_.end(), 0);
+}
+
+void FlatTriangles::remove()
+{
+  std::unordered_map<std::int32_t, std::int32_t> numbers;
+  std::vector<std::int32_t> pointOf;
+  std::vector<Triangle> local = triangles_;
+  for (Triangle& corner : local)
+  {
+    for (std::int32_t& point : corner)
+    {
+      const auto [found, isNew] = numbers.try_emplace(point, std::int32_t(pointOf.size()));
+      if (isNew)
+      {
+        pointOf.push_back(point);
+      }
+      point = found->second;
+    }
+  }
+  Worker(*this, pointOf, local).run();
+}
+
+} // namespace hybridtree
