@@ -32,7 +32,7 @@ namespace
 constexpr const char* kNormals = "Normals";
 constexpr const char* kPointIds = "PointIds";
 
-// All work runs on the filter's own thread, so it may talk to the filter at any time.
+// Progress is reported on the filter's own thread only; any thread may ask whether to stop.
 class FilterProgress final : public hybridtree::Progress
 {
 public:
