@@ -8,9 +8,13 @@
 #include "core/skeletons/ConeSphere.h"
 #include "core/skeletons/Cylinder.h"
 #include "core/skeletons/Disc.h"
+#include "core/skeletons/Ellipsoid.h"
 #include "core/skeletons/HollowCylinder.h"
 #include "core/skeletons/Point.h"
+#include "core/skeletons/Polygon.h"
+#include "core/skeletons/Rectangle.h"
 #include "core/skeletons/Segment.h"
+#include "core/skeletons/Triangle.h"
 
 namespace hybridtree
 {
@@ -34,6 +38,10 @@ constexpr Maker kMakers[] = {
   { "hollow_cylinder", &HollowCylinderSkeleton::fromParameters },
   { "cone", &ConeSkeleton::fromParameters },
   { "cone_sphere", &ConeSphereSkeleton::fromParameters },
+  { "rectangle", &RectangleSkeleton::fromParameters },
+  { "triangle", &TriangleSkeleton::fromParameters },
+  { "polygon", &PolygonSkeleton::fromParameters },
+  { "ellipsoid", &EllipsoidSkeleton::fromParameters },
 };
 
 } // namespace

@@ -2,7 +2,7 @@
 // Direct meshes: topology, shape of triangles, exactness of points and normals, enclosed volume.
 #include "core/base/Error.h"
 #include "core/mesh/MeshChecks.h"
-#include "tests/core/skeletons/SkeletonCases.h"
+#include "tests/core/skeletons/PlateCases.h"
 
 #include <gtest/gtest.h>
 
@@ -114,6 +114,78 @@ void addRound(std::vector<OffsetCase>& cases, Random& random)
     0.3, sphere(0.8));
 }
 
+// A convex plate, swept.
+double roundedPlate(double area, double outline, double r)
+{
+  return 2.0 * r * area + 0.5 * EIGEN_PI * r * r * outline + sphere(r);
+}
+
+// Steiner: integrals over the unit sphere of abc |u / e|, the area, and of |u e|, the height of the
+// tangent plane across u, which is the integral of the mean curvature.
+double sweptEllipsoid(const Vec3& e, double r)
+{
+  constexpr int kSteps = 400;
+  double area = 0.0;
+  double mean = 0.0;
+  for (int i = 0; i < kSteps; ++i)
+  {
+    for (int j = 0; j < kSteps; ++j)
+    {
+      const double z = 2.0 * (i + 0.5) / kSteps - 1.0;
+      const double turn = 2.0 * EIGEN_PI * (j + 0.5) / kSteps;
+      const double across = std::sqrt(1.0 - z * z);
+      const Vec3 u(across * std::cos(turn), across * std::sin(turn), z);
+      const double part = 4.0 * EIGEN_PI / (kSteps * kSteps);
+      area += part * e.prod() * u.cwiseQuotient(e).norm();
+      mean += part * u.cwiseProduct(e).norm();
+    }
+  }
+  return 4.0 / 3.0 * EIGEN_PI * e.prod() + area * r + mean * r * r + sphere(r);
+}
+
+void addFlatAndEllipsoids(std::vector<OffsetCase>& cases, Random& random)
+{
+  const auto add = [&](const char* name, const SkeletonPtr& skeleton, double r, double volume) {
+    cases.push_back({ name, skeleton, r, volume });
+  };
+  const Mat3 turned = random.rotation();
+  const Vec3 at = random.direction();
+  const auto place = [&](double x, double y) { return Vec3(at + turned * Vec3(x, y, 0.0)); };
+  for (const double r : { 0.15, 0.4 })
+  {
+    add("rectangle", std::make_shared<RectangleSkeleton>(place(0, 0), place(1.2, 0), place(0, 0.7)),
+      r, roundedPlate(0.84, 3.8, r));
+    add("leaning rectangle",
+      std::make_shared<RectangleSkeleton>(place(0, 0), place(1.5, 0), place(0.9, 1.2)), r,
+      roundedPlate(1.8, 6.0, r));
+    add("flat rectangle",
+      std::make_shared<RectangleSkeleton>(place(0, 0), place(1.5, 0), place(1.6, 1.2)), r,
+      roundedPlate(1.8, 7.0, r));
+    add("triangle", std::make_shared<TriangleSkeleton>(place(0, 0), place(1.5, 0), place(0, 2)), r,
+      roundedPlate(1.5, 6.0, r));
+    add("even triangle",
+      std::make_shared<TriangleSkeleton>(place(0, 0), place(1.2, 0), place(0.6, 0.8)), r,
+      roundedPlate(0.48, 3.2, r));
+    std::vector<Vec3> hexagon;
+    for (const Vec3& corner : test::star(6, 1.0, 1.0))
+    {
+      hexagon.push_back(at + turned * corner);
+    }
+    const double side = 2.0 * std::sin(EIGEN_PI / 12.0);
+    add("polygon", std::make_shared<PolygonSkeleton>(hexagon), r,
+      roundedPlate(6.0 * std::sin(EIGEN_PI / 6.0), 12.0 * side, r));
+  }
+  for (const Vec3& radii :
+    { Vec3(1, 1, 1), Vec3(0.6, 1, 0.8), Vec3(0.4, 0.4, 1.5), Vec3(1, 0.3, 1), Vec3(2, 0.8, 0.2) })
+  {
+    for (const double r : { 0.0, 0.3 })
+    {
+      add("ellipsoid", std::make_shared<EllipsoidSkeleton>(at, radii, turned), r,
+        sweptEllipsoid(radii, r));
+    }
+  }
+}
+
 std::vector<OffsetCase> offsetCases()
 {
   Random random(21);
@@ -141,6 +213,7 @@ std::vector<OffsetCase> offsetCases()
       roundedBox(l, 0.3));
   }
   addRound(cases, random);
+  addFlatAndEllipsoids(cases, random);
   Mat3 mirror = random.rotation();
   mirror.col(2) *= -1.0;
   add("mirrored box", std::make_shared<BoxSkeleton>(random.direction(), Vec3(1, 2, 0.7), mirror),
@@ -287,6 +360,10 @@ TEST(OffsetMesh, IsSymmetricInThePlanesOfTheShape)
     { std::make_shared<CylinderSkeleton>(-Vec3::UnitY(), Vec3::UnitY(), 0.6), 0.2 },
     { std::make_shared<HollowCylinderSkeleton>(-Vec3::UnitX(), Vec3::UnitX(), 0.8, 0.4), 0.2 },
     { std::make_shared<HollowCylinderSkeleton>(-Vec3::UnitX(), Vec3::UnitX(), 0.8, 0.1), 0.2 },
+    { std::make_shared<RectangleSkeleton>(Vec3(-1, -0.6, 0), Vec3(1, -0.6, 0), Vec3(-1, 0.6, 0)),
+      0.2 },
+    { std::make_shared<EllipsoidSkeleton>(Vec3::Zero(), Vec3(0.5, 1, 0.7)), 0.0 },
+    { std::make_shared<EllipsoidSkeleton>(Vec3::Zero(), Vec3(0.5, 1, 0.7)), 0.3 },
   };
   for (const auto& [skeleton, radius] : shapes)
   {
@@ -344,6 +421,8 @@ TEST(OffsetMesh, TooManyTrianglesAreRefusedWithTheirNumber)
     { std::make_shared<BoxSkeleton>(Vec3::Zero(), Vec3(1, 2, 0.5)), 0.0 },
     { std::make_shared<DiscSkeleton>(Vec3::Zero(), Vec3::UnitZ(), 1.0), 0.2 },
     { std::make_shared<ConeSkeleton>(Vec3::Zero(), Vec3(1, 0, 0), 0.3, 0.0), 0.0 },
+    { std::make_shared<TriangleSkeleton>(Vec3::Zero(), Vec3(2, 0, 0), Vec3(0, 1, 0)), 0.2 },
+    { std::make_shared<EllipsoidSkeleton>(Vec3::Zero(), Vec3(1, 2, 3)), 0.0 },
   };
   for (const auto& [skeleton, radius] : shapes)
   {

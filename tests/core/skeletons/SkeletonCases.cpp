@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tests/core/skeletons/SkeletonCases.h"
 
+#include "tests/core/skeletons/PlateCases.h"
 #include "tests/core/skeletons/RoundCases.h"
 
 namespace hybridtree::test
@@ -105,6 +106,14 @@ std::vector<SkeletonCase> skeletonCases()
   for (const RoundCase& round : roundCases())
   {
     cases.push_back(withSamples(round));
+  }
+  for (const PlateCase& plate : plateCases())
+  {
+    cases.push_back(withSamples(plate));
+  }
+  for (SkeletonCase& ellipsoid : ellipsoidCases())
+  {
+    cases.push_back(std::move(ellipsoid));
   }
   return cases;
 }
