@@ -138,30 +138,42 @@ private:
     std::int64_t middleB = (1 + b.shift) * std::int64_t(a.count);
     const std::int64_t whole = stepA * a.count;
     const bool aFirst = this->goesFirst(a.place.position, b.place.position);
+    // On a tie the other way in every other quarter: mirror images.
+    const auto aOnTie = [&] { return aFirst == ((4 * middleA / whole) % 2 == 0); };
     int i = 0;
     int j = 0;
+    Triangle* next = this->append(static_cast<std::size_t>(a.count) + std::size_t(b.count));
+    // Without branches, which nobody could predict, up to where one of the rings closes.
+    while (i + 1 < a.count && j + 1 < b.count)
+    {
+      const bool onA = middleA != middleB ? middleA < middleB : aOnTie();
+      *next++ = { firstA + i, onA ? firstA + i + 1 : firstB + j + 1, firstB + j };
+      i += onA;
+      j += !onA;
+      middleA += onA ? stepA : 0;
+      middleB += onA ? 0 : stepB;
+    }
     while (i < a.count || j < b.count)
     {
-      // On a tie the other way in every other quarter: mirror images.
-      const bool even = (4 * middleA / whole) % 2 == 0;
-      const bool before = middleA < middleB || (middleA == middleB && aFirst == even);
-      const int pointA = firstA + (i < a.count ? i : 0);
-      const int pointB = firstB + (j < b.count ? j : 0);
-      if (j == b.count || (i < a.count && before))
-      {
-        const int next = firstA + (i + 1 < a.count ? i + 1 : 0);
-        mesh_.triangles.push_back({ pointA, next, pointB });
-        ++i;
-        middleA += stepA;
-      }
-      else
-      {
-        const int next = firstB + (j + 1 < b.count ? j + 1 : 0);
-        mesh_.triangles.push_back({ pointA, next, pointB });
-        ++j;
-        middleB += stepB;
-      }
+      const bool before = middleA != middleB ? middleA < middleB : aOnTie();
+      const bool onA = j == b.count || (i < a.count && before);
+      const int nextA = firstA + (i + 1 < a.count ? i + 1 : 0);
+      const int nextB = firstB + (j + 1 < b.count ? j + 1 : 0);
+      *next++ = { firstA + (i < a.count ? i : 0), onA ? nextA : nextB,
+        firstB + (j < b.count ? j : 0) };
+      i += onA;
+      j += !onA;
+      middleA += onA ? stepA : 0;
+      middleB += onA ? 0 : stepB;
     }
+  }
+
+  // Room for more triangles, to be written.
+  Triangle* append(std::size_t count)
+  {
+    const std::size_t before = mesh_.triangles.size();
+    mesh_.triangles.resize(before + count);
+    return &mesh_.triangles[before];
   }
 
   // The same answer for a strip and its mirror image in height.

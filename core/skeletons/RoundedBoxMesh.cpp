@@ -2,10 +2,12 @@
 #include "core/skeletons/OffsetMesh.h"
 
 #include "core/base/Error.h"
+#include "core/skeletons/BoxGrid.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <sstream>
 
 namespace hybridtree
@@ -33,77 +35,6 @@ using Index3 = std::array<int, 3>;
 // No edge of a subdivided octant is longer than this many radii / n. Found numerically: the bound
 // grows with n, to 2.30575 in the limit.
 constexpr double kLongestOfOctant = 2.306;
-
-class TriangleList
-{
-public:
-  TriangleList(std::vector<Triangle>& triangles, bool mirrored)
-    : triangles_(triangles), mirrored_(mirrored)
-  {
-  }
-
-  void add(int a, int b, int c, bool flip)
-  {
-    triangles_.push_back(flip != mirrored_ ? Triangle{ a, c, b } : Triangle{ a, b, c });
-  }
-
-  // A cell with corners in this cyclic order, cut from a to c or from b to d.
-  void addCell(int a, int b, int c, int d, bool fromA, bool flip)
-  {
-    if (fromA)
-    {
-      this->add(a, b, c, flip);
-      this->add(a, c, d, flip);
-    }
-    else
-    {
-      this->add(a, b, d, flip);
-      this->add(b, c, d, flip);
-    }
-  }
-
-private:
-  std::vector<Triangle>& triangles_;
-  bool mirrored_;
-};
-
-// The six faces as grids of m cells a side, cut towards the middle so that mirror images agree.
-// id(axis, positive, u) is the point of the face at grid position u.
-template <class Id>
-void addFaces(const Index3& m, const Id& id, TriangleList& list)
-{
-  for (int a = 0; a < 3; ++a)
-  {
-    const int b = (a + 1) % 3;
-    const int c = (a + 2) % 3;
-    for (const bool positive : { false, true })
-    {
-      const auto at = [&](int ub, int uc)
-      {
-        Index3 u;
-        u[a] = positive ? m[a] : 0;
-        u[b] = ub;
-        u[c] = uc;
-        return id(a, positive, u);
-      };
-      for (int ub = 0; ub < m[b]; ++ub)
-      {
-        for (int uc = 0; uc < m[c]; ++uc)
-        {
-          const bool fromA = (2 * ub + 1 < m[b]) == (2 * uc + 1 < m[c]);
-          list.addCell(
-            at(ub, uc), at(ub + 1, uc), at(ub + 1, uc + 1), at(ub, uc + 1), fromA, !positive);
-        }
-      }
-    }
-  }
-}
-
-// Coordinate of grid position u of m cells on [-half, half]; the middle where there are no cells.
-double gridCoordinate(int u, int m, double half)
-{
-  return m > 0 ? half * (static_cast<double>(2 * u - m) / m) : 0.0;
-}
 
 // The surface as a Minkowski sum: a point is a grid position u of the box, plus radius times one of
 // the directions of a subdivided octahedron, written as the integers d with |d0| + |d1| + |d2| = n.
@@ -137,22 +68,15 @@ public:
   TriangleMesh make()
   {
     this->placePoints();
-    mesh_.triangles.reserve(static_cast<std::size_t>(this->triangleCount(n_, m_[0], m_[1], m_[2])));
-    TriangleList list(mesh_.triangles, box_.axes.determinant() < 0.0);
-    this->addOctants(list);
+    mesh_.triangles.resize(static_cast<std::size_t>(this->triangleCount(n_, m_[0], m_[1], m_[2])));
+    next_ = mesh_.triangles.data();
+    mirrored_ = box_.axes.determinant() < 0.0;
+    this->addOctants();
     for (int a = 0; a < 3; ++a)
     {
-      this->addQuadrants(a, list);
+      this->addQuadrants(a);
+      this->addFaces(a);
     }
-    addFaces(
-      m_,
-      [this](int a, bool positive, const Index3& u)
-      {
-        Index3 d{};
-        d[a] = positive ? n_ : -n_;
-        return this->id(d, u);
-      },
-      list);
     return std::move(mesh_);
   }
 
@@ -217,58 +141,148 @@ private:
     return firstOfFaces_[a] + ((d[a] < 0) * (m_[b] + 1) + u[b]) * (m_[c] + 1) + u[c];
   }
 
-  void place(const Index3& d, const Index3& u)
+  // The direction d in the first octant, along the axes of the box.
+  Vec3 direction(int i, int j, int k) const
   {
-    Vec3 direction;
-    Vec3 core;
-    for (int a = 0; a < 3; ++a)
-    {
-      const double value = profile_[static_cast<std::size_t>(std::abs(d[a]))];
-      direction[a] = d[a] < 0 ? -value : value;
-      core[a] =
-        d[a] == 0 ? gridCoordinate(u[a], m_[a], box_.half[a]) : std::copysign(box_.half[a], d[a]);
-    }
-    direction.normalize();
-    const std::size_t point = static_cast<std::size_t>(this->id(d, u));
-    mesh_.points[point] = box_.center + box_.axes * (core + radius_ * direction);
-    mesh_.normals[point] = box_.axes * direction;
+    return Vec3(profile_[static_cast<std::size_t>(i)], profile_[static_cast<std::size_t>(j)],
+      profile_[static_cast<std::size_t>(k)])
+      .normalized();
+  }
+
+  Vec3 cornerAt(const Vec3& signs) const
+  {
+    return box_.center + box_.axes * box_.half.cwiseProduct(signs);
   }
 
   void placePoints()
   {
-    // Each direction once, with all grid positions that go with it.
-    for (int i = -n_; i <= n_; ++i)
+    this->placeOctants();
+    for (int a = 0; a < 3; ++a)
     {
-      const int rest = n_ - std::abs(i);
-      for (int j = -rest; j <= rest; ++j)
+      this->placeArcs(a);
+      this->placeFaces(a);
+    }
+  }
+
+  // Each direction is made once, and mirrored: normals of the octants differ by signs along the
+  // axes of the box.
+  void placeOctants()
+  {
+    const int size = this->octantSize();
+    Vec3 corners[8];
+    for (int octant = 0; octant < 8; ++octant)
+    {
+      corners[octant] = this->cornerAt(signsOf(octant));
+    }
+    int inOctant = 0;
+    for (int i = 1; i < n_ - 1; ++i)
+    {
+      for (int j = 1; i + j < n_; ++j, ++inOctant)
       {
-        const int k = rest - std::abs(j);
-        this->placeAll({ i, j, k });
-        if (k > 0)
+        const Vec3 d = this->direction(i, j, n_ - i - j);
+        const Vec3 x = d[0] * box_.axes.col(0);
+        const Vec3 y = d[1] * box_.axes.col(1);
+        const Vec3 z = d[2] * box_.axes.col(2);
+        const Vec3 sums[4] = { x + y, y - x, x - y, -x - y };
+        for (int octant = 0; octant < 8; ++octant)
         {
-          this->placeAll({ i, j, -k });
+          const Vec3 normal = octant & 4 ? Vec3(sums[octant & 3] - z) : Vec3(sums[octant & 3] + z);
+          const std::size_t point = static_cast<std::size_t>(octant * size + inOctant);
+          mesh_.normals[point] = normal;
+          mesh_.points[point] = corners[octant] + radius_ * normal;
         }
       }
     }
   }
 
-  void placeAll(const Index3& d)
+  // The arcs across axis a, each at every grid position along it.
+  void placeArcs(int a)
   {
-    const auto last = [&](int a) { return d[a] == 0 ? m_[a] : 0; };
-    for (int x = 0; x <= last(0); ++x)
+    const int b = (a + 1) % 3;
+    const int c = (a + 2) % 3;
+    std::size_t point = static_cast<std::size_t>(firstOfArcs_[a]);
+    for (int quadrant = 0; quadrant < 4; ++quadrant)
     {
-      for (int y = 0; y <= last(1); ++y)
+      Vec3 signs = Vec3::Zero();
+      signs[b] = (quadrant & 1) ? -1.0 : 1.0;
+      signs[c] = (quadrant & 2) ? -1.0 : 1.0;
+      const Vec3 edge = this->cornerAt(signs);
+      for (int t = 1; t < n_; ++t)
       {
-        for (int z = 0; z <= last(2); ++z)
+        const Vec3 d = this->direction(0, t, n_ - t);
+        const Vec3 normal = signs[b] * d[1] * box_.axes.col(b) + signs[c] * d[2] * box_.axes.col(c);
+        const Vec3 middle = edge + radius_ * normal;
+        for (int step = 0; step <= m_[a]; ++step, ++point)
         {
-          this->place(d, { x, y, z });
+          mesh_.normals[point] = normal;
+          mesh_.points[point] =
+            middle + gridCoordinate(step, m_[a], box_.half[a]) * box_.axes.col(a);
         }
       }
     }
   }
 
-  void addOctants(TriangleList& list) const
+  // The two faces across axis a.
+  void placeFaces(int a)
   {
+    const int b = (a + 1) % 3;
+    const int c = (a + 2) % 3;
+    std::size_t point = static_cast<std::size_t>(firstOfFaces_[a]);
+    for (const double side : { 1.0, -1.0 })
+    {
+      const Vec3 normal = side * box_.axes.col(a);
+      const Vec3 middle = box_.center + (box_.half[a] + radius_) * normal;
+      for (int u = 0; u <= m_[b]; ++u)
+      {
+        const Vec3 row = middle + gridCoordinate(u, m_[b], box_.half[b]) * box_.axes.col(b);
+        for (int v = 0; v <= m_[c]; ++v, ++point)
+        {
+          mesh_.normals[point] = normal;
+          mesh_.points[point] = row + gridCoordinate(v, m_[c], box_.half[c]) * box_.axes.col(c);
+        }
+      }
+    }
+  }
+
+  static Vec3 signsOf(int octant)
+  {
+    return Vec3((octant & 1) ? -1.0 : 1.0, (octant & 2) ? -1.0 : 1.0, (octant & 4) ? -1.0 : 1.0);
+  }
+
+  void add(int a, int b, int c, bool flip)
+  {
+    *next_++ = flip != mirrored_ ? Triangle{ a, c, b } : Triangle{ a, b, c };
+  }
+
+  // Cells between two rows of points that run alike: cut from a to c or from b to d, towards the
+  // middle of the whole, so that mirror images agree.
+  void addCells(const int* row, const int* nextRow, int count, bool firstHalf, bool flip)
+  {
+    for (int k = 0; k < count; ++k)
+    {
+      const int a = row[k];
+      const int b = row[k + 1];
+      const int c = nextRow[k + 1];
+      const int d = nextRow[k];
+      if ((2 * k + 1 < count) == firstHalf)
+      {
+        this->add(a, b, c, flip);
+        this->add(a, c, d, flip);
+      }
+      else
+      {
+        this->add(a, b, d, flip);
+        this->add(b, c, d, flip);
+      }
+    }
+  }
+
+  void addOctants()
+  {
+    // The points with i steps towards the first axis, in order of j; only the ends of a row are
+    // shared with other parts.
+    std::vector<int> row(static_cast<std::size_t>(n_) + 1);
+    std::vector<int> nextRow(row.size());
     for (int octant = 0; octant < 8; ++octant)
     {
       const Index3 sign = { (octant & 1) ? -1 : 1, (octant & 2) ? -1 : 1, (octant & 4) ? -1 : 1 };
@@ -278,53 +292,83 @@ private:
       {
         corner[a] = sign[a] > 0 ? m_[a] : 0;
       }
-      const auto at = [&](int i, int j, int k) {
-        return this->id({ sign[0] * i, sign[1] * j, sign[2] * k }, corner);
+      const auto fill = [&](int i, std::vector<int>& ids)
+      {
+        for (int j = 0; j <= n_ - i; ++j)
+        {
+          ids[static_cast<std::size_t>(j)] =
+            this->id({ sign[0] * i, sign[1] * j, sign[2] * (n_ - i - j) }, corner);
+        }
       };
+      fill(0, row);
       for (int i = 0; i < n_; ++i)
       {
-        for (int j = 0; i + j < n_; ++j)
+        fill(i + 1, nextRow);
+        const int* low = row.data();
+        const int* high = nextRow.data();
+        const int last = n_ - 1 - i;
+        for (int j = 0; j < last; ++j)
         {
-          const int k = n_ - 1 - i - j;
-          list.add(at(i + 1, j, k), at(i, j + 1, k), at(i, j, k + 1), flip);
-          if (k > 0)
-          {
-            list.add(at(i, j + 1, k), at(i + 1, j, k), at(i + 1, j + 1, k - 1), flip);
-          }
+          this->add(high[j], low[j + 1], low[j], flip);
+          this->add(low[j + 1], high[j], high[j + 1], flip);
         }
+        this->add(high[last], low[last + 1], low[last], flip);
+        row.swap(nextRow);
       }
     }
   }
 
   // The four quarter cylinders along axis a.
-  void addQuadrants(int a, TriangleList& list) const
+  void addQuadrants(int a)
   {
     const int b = (a + 1) % 3;
     const int c = (a + 2) % 3;
+    std::vector<int> row(static_cast<std::size_t>(m_[a]) + 1);
+    std::vector<int> nextRow(row.size());
     for (int quadrant = 0; quadrant < 4; ++quadrant)
     {
       const int signB = (quadrant & 1) ? -1 : 1;
       const int signC = (quadrant & 2) ? -1 : 1;
-      const auto at = [&](int step, int t)
+      const auto fill = [&](int t, std::vector<int>& ids)
       {
-        Index3 d;
-        d[a] = 0;
+        Index3 d{};
         d[b] = signB * t;
         d[c] = signC * (n_ - t);
         Index3 u;
-        u[a] = step;
         u[b] = signB > 0 ? m_[b] : 0;
         u[c] = signC > 0 ? m_[c] : 0;
-        return this->id(d, u);
+        for (u[a] = 0; u[a] <= m_[a]; ++u[a])
+        {
+          ids[static_cast<std::size_t>(u[a])] = this->id(d, u);
+        }
       };
+      fill(0, row);
       for (int t = 0; t < n_; ++t)
       {
-        for (int step = 0; step < m_[a]; ++step)
-        {
-          const bool fromA = (2 * step + 1 < m_[a]) == (2 * t + 1 < n_);
-          list.addCell(at(step, t), at(step + 1, t), at(step + 1, t + 1), at(step, t + 1), fromA,
-            signB * signC < 0);
-        }
+        fill(t + 1, nextRow);
+        this->addCells(row.data(), nextRow.data(), m_[a], 2 * t + 1 < n_, signB * signC < 0);
+        row.swap(nextRow);
+      }
+    }
+  }
+
+  // The two faces across axis a.
+  void addFaces(int a)
+  {
+    const int b = (a + 1) % 3;
+    const int c = (a + 2) % 3;
+    std::vector<int> row(static_cast<std::size_t>(m_[c]) + 1);
+    std::vector<int> nextRow(row.size());
+    for (const bool positive : { true, false })
+    {
+      std::iota(nextRow.begin(), nextRow.end(),
+        firstOfFaces_[a] + (positive ? 0 : (m_[b] + 1) * (m_[c] + 1)));
+      for (int u = 0; u < m_[b]; ++u)
+      {
+        row.swap(nextRow);
+        std::iota(nextRow.begin(), nextRow.end(), row.front() + m_[c] + 1);
+        // Rows run along c, the second axis: the outside is on the other side.
+        this->addCells(row.data(), nextRow.data(), m_[c], 2 * u + 1 < m_[b], positive);
       }
     }
   }
@@ -337,6 +381,8 @@ private:
   Index3 firstOfArcs_{};
   Index3 firstOfFaces_{};
   TriangleMesh mesh_;
+  Triangle* next_ = nullptr; // to be written
+  bool mirrored_ = false;
 };
 
 } // namespace
@@ -344,63 +390,6 @@ private:
 TriangleMesh meshRoundedBox(const BoxShape& box, double radius, double edgeLength)
 {
   return RoundedBox(box, radius, edgeLength).make();
-}
-
-TriangleMesh meshSharpBox(const BoxShape& box, double edgeLength)
-{
-  const Vec3 cells = (box.half * (2.0 * std::sqrt(2.0) / edgeLength)).array().ceil();
-  requireModestCount(
-    4.0 * (cells[0] * cells[1] + cells[1] * cells[2] + cells[2] * cells[0]), edgeLength);
-  const Index3 m = { static_cast<int>(cells[0]), static_cast<int>(cells[1]),
-    static_cast<int>(cells[2]) };
-
-  // Bottom and top are full grids of points, the layers between them closed loops.
-  const int layer = (m[0] + 1) * (m[1] + 1);
-  const int loop = 2 * (m[0] + m[1]);
-  const auto id = [&](const Index3& u)
-  {
-    if (u[2] == 0 || u[2] == m[2])
-    {
-      return (u[2] == 0 ? 0 : layer) + u[1] * (m[0] + 1) + u[0];
-    }
-    const int along = u[1] == 0 ? u[0]
-      : u[0] == m[0]            ? m[0] + u[1]
-      : u[1] == m[1]            ? m[0] + m[1] + (m[0] - u[0])
-                                : 2 * m[0] + m[1] + (m[1] - u[1]);
-    return 2 * layer + (u[2] - 1) * loop + along;
-  };
-
-  TriangleMesh mesh;
-  const std::size_t count = static_cast<std::size_t>(2 * layer + (m[2] - 1) * loop);
-  mesh.points.resize(count);
-  mesh.normals.assign(count, Vec3::Zero());
-  TriangleList list(mesh.triangles, box.axes.determinant() < 0.0);
-  addFaces(
-    m,
-    [&](int a, bool positive, const Index3& u)
-    {
-      const int point = id(u);
-      const std::size_t k = static_cast<std::size_t>(point);
-      Vec3 local;
-      for (int b = 0; b < 3; ++b)
-      {
-        local[b] = gridCoordinate(u[b], m[b], box.half[b]);
-      }
-      mesh.points[k] = box.center + box.axes * local;
-      // Each face once, however many of its cells ask.
-      const Vec3 outward = positive ? Vec3(box.axes.col(a)) : Vec3(-box.axes.col(a));
-      if (!(mesh.normals[k].dot(outward) > 0.5))
-      {
-        mesh.normals[k] += outward;
-      }
-      return point;
-    },
-    list);
-  for (Vec3& normal : mesh.normals)
-  {
-    normal.normalize();
-  }
-  return mesh;
 }
 
 } // namespace hybridtree

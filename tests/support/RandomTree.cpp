@@ -10,8 +10,11 @@
 #include "core/nodes/Primitive.h"
 #include "core/skeletons/Box.h"
 #include "core/skeletons/Circle.h"
+#include "core/skeletons/Ellipsoid.h"
 #include "core/skeletons/Point.h"
+#include "core/skeletons/Rectangle.h"
 #include "core/skeletons/Segment.h"
+#include "core/skeletons/Triangle.h"
 #include "tests/support/TestMeshes.h"
 
 namespace hybridtree::test
@@ -57,10 +60,32 @@ private:
   Vec3 place() { return 0.5 * Vec3(this->coordinate(), this->coordinate(), this->coordinate()); }
   double coordinate() { return random_.uniform(-1.0, 1.0); }
 
+  SkeletonPtr flatOrEllipsoid()
+  {
+    // Two sides that do not line up.
+    const Vec3 corner = this->place();
+    const Mat3 axes = random_.rotation();
+    const Vec3 side = random_.uniform(0.2, 0.7) * axes.col(0);
+    const Vec3 other = random_.uniform(0.2, 0.7) * (axes.col(1) + 0.4 * axes.col(0));
+    switch (random_.integer(0, 2))
+    {
+      case 0:
+        return std::make_shared<RectangleSkeleton>(corner, corner + side, corner + other);
+      case 1:
+        return std::make_shared<TriangleSkeleton>(corner, corner + side, corner + other);
+      default:
+        return std::make_shared<EllipsoidSkeleton>(corner,
+          Vec3(random_.uniform(0.1, 0.4), random_.uniform(0.1, 0.4), random_.uniform(0.1, 0.4)),
+          axes);
+    }
+  }
+
   SkeletonPtr skeleton()
   {
-    switch (random_.integer(0, 3))
+    switch (random_.integer(0, 4))
     {
+      case 4:
+        return this->flatOrEllipsoid();
       case 0:
         return std::make_shared<PointSkeleton>(this->place());
       case 1:

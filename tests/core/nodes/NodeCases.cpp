@@ -10,8 +10,12 @@
 #include "core/nodes/Primitive.h"
 #include "core/skeletons/Box.h"
 #include "core/skeletons/Circle.h"
+#include "core/skeletons/Ellipsoid.h"
 #include "core/skeletons/Point.h"
+#include "core/skeletons/Polygon.h"
+#include "core/skeletons/Rectangle.h"
 #include "core/skeletons/Segment.h"
+#include "core/skeletons/Triangle.h"
 
 #include "tests/support/Random.h"
 #include "tests/support/TestMeshes.h"
@@ -220,6 +224,28 @@ void addFreeForms(std::vector<NodeCase>& cases)
     makeFreeForm(block(), lattice(0.4), FieldFrom::InverseMap)->affine(shear()), tolerance });
 }
 
+void addPlates(std::vector<NodeCase>& cases)
+{
+  const auto add = [&](const std::string& name, SkeletonPtr skeleton)
+  {
+    const NodePtr node = makePrimitive(std::move(skeleton), potential(0.12, 0.35));
+    cases.push_back({ name, node });
+    cases.push_back({ "Sheared" + name, node->affine(shear()) });
+  };
+  const Vec3 a(-0.5, -0.3, 0.1);
+  const Vec3 b(0.6, -0.4, 0.2);
+  const Vec3 c(-0.2, 0.5, -0.1);
+  add("Rectangle", std::make_shared<RectangleSkeleton>(a, b, c));
+  add("Triangle", std::make_shared<TriangleSkeleton>(a, b, c));
+  const auto place = [&](double u, double v) { return Vec3(a + u * (b - a) + v * (c - a)); };
+  add("Polygon",
+    std::make_shared<PolygonSkeleton>(std::vector<Vec3>{
+      place(0, 0), place(1, 0), place(1, 0.4), place(0.4, 0.4), place(0.4, 1), place(0, 1) }));
+  const Mat3 turned = Eigen::AngleAxisd(0.8, Vec3(2, -1, 1).normalized()).toRotationMatrix();
+  add("Ellipsoid",
+    std::make_shared<EllipsoidSkeleton>(Vec3(0.1, 0.0, -0.1), Vec3(0.5, 0.3, 0.2), turned));
+}
+
 } // namespace
 
 std::vector<NodeCase> nodeCases()
@@ -234,6 +260,7 @@ std::vector<NodeCase> nodeCases()
   cases.push_back({ "ShearedCircle", ring()->affine(shear()) });
   cases.push_back({ "ShearedBox", block()->affine(shear()) });
   cases.push_back({ "Hole", hole(Vec3(0.1, 0.2, 0.3)) });
+  addPlates(cases);
   addMeshes(cases);
   addBlends(cases);
   addBooleans(cases);
