@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace hybridtree
 {
@@ -52,6 +53,52 @@ double roundingAt(const Box3& box)
 double middleStretch(const std::optional<Affine3>& map)
 {
   return map ? Eigen::JacobiSVD<Mat3>(map->linear()).singularValues()[1] : 1.0;
+}
+
+// Slope of the signed distance, by differences: the gradient that skeletons give ends at their
+// boundary.
+Vec3 slopeInside(const Skeleton& skeleton, const Vec3& p, double step)
+{
+  Vec3 slope;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const Vec3 a = p - step * Vec3::Unit(axis);
+    const Vec3 b = p + step * Vec3::Unit(axis);
+    double before, after;
+    skeleton.signedDistance({ &a.x(), &a.y(), &a.z(), 1 }, &before);
+    skeleton.signedDistance({ &b.x(), &b.y(), &b.z(), 1 }, &after);
+    slope[axis] = after - before;
+  }
+  return slope.norm() > 0.0 ? Vec3(slope.normalized()) : slope;
+}
+
+// Moves a point near an offset surface onto it, and says which way is out. One step, unless the
+// point is inside the skeleton or the surface has grown into itself: then what was nearest may
+// change on the way.
+Vec3 stepOntoOffset(const Skeleton& skeleton, double radius, Vec3& p)
+{
+  constexpr int kMostSteps = 40;
+  const double size = skeleton.bounds().diagonal().norm() + radius;
+  Vec3 outward = Vec3::Zero();
+  for (int step = 0; step < kMostSteps; ++step)
+  {
+    double distance;
+    skeleton.distanceAndGradient(
+      { &p.x(), &p.y(), &p.z(), 1 }, &distance, { &outward.x(), &outward.y(), &outward.z() });
+    const bool within = distance == 0.0;
+    if (within)
+    {
+      skeleton.signedDistance({ &p.x(), &p.y(), &p.z(), 1 }, &distance);
+      outward = distance == radius ? outward : slopeInside(skeleton, p, 1e-7 * size);
+    }
+    const double over = distance - radius;
+    p -= over * outward;
+    if (std::abs(over) <= 1e-15 * size || (!within && radius < skeleton.reach()))
+    {
+      break;
+    }
+  }
+  return outward;
 }
 
 } // namespace
@@ -200,9 +247,12 @@ void Primitive::signedDistance(PointBatch points, double* distance) const
   }
   skeleton_->signedDistance(points, distance);
   const double radius = *potential_.surfaceRadius();
+  // Inside of an offset that has grown into itself the way back to the skeleton says nothing.
+  const bool insideKnown = radius < skeleton_->reach();
   for (std::size_t k = 0; k < points.size; ++k)
   {
-    distance[k] -= radius;
+    const double over = distance[k] - radius;
+    distance[k] = insideKnown || over >= 0.0 ? over : std::numeric_limits<double>::quiet_NaN();
   }
 }
 
@@ -297,14 +347,11 @@ void Primitive::projectOntoSurface(std::vector<Vec3>& points, std::vector<Vec3>&
   const double radius = *potential_.surfaceRadius();
   for (std::size_t k = 0; k < points.size(); ++k)
   {
-    const Vec3 p = placement_->inverse * points[k];
-    double distance;
-    Vec3 outward;
-    skeleton_->distanceAndGradient(
-      { &p.x(), &p.y(), &p.z(), 1 }, &distance, { &outward.x(), &outward.y(), &outward.z() });
-    points[k] = placement_->map * Vec3(p - (distance - radius) * outward);
-    // On a sharp box the interpolated normals are those to keep.
-    if (radius > 0.0 && distance > 0.0)
+    Vec3 p = placement_->inverse * points[k];
+    const Vec3 outward = stepOntoOffset(*skeleton_, radius, p);
+    points[k] = placement_->map * p;
+    // On a sharp solid the interpolated normals are those to keep.
+    if (radius > 0.0)
     {
       normals[k] = (placement_->inverse.linear().transpose() * outward).normalized();
     }

@@ -39,8 +39,8 @@ public:
   /// By the signed distance to the skeleton: inside a volume skeleton is inside for every r_T.
   void membership(PointBatch points, std::int8_t* side) const override;
 
-  /// d - r_T. Inside a volume skeleton d is negative there and the value exact too; NaN under a
-  /// non-similarity and where there is no surface.
+  /// d - r_T. Inside a volume skeleton d is negative there and the value exact too. NaN under a
+  /// non-similarity, where there is no surface, and inside of one beyond the skeleton's reach().
   void signedDistance(PointBatch points, double* distance) const override;
 
   /// 0 within the influence, -1 beyond.

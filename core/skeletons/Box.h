@@ -22,6 +22,7 @@ public:
 
   Interval distanceRange(const Box3& box) const override;
   Box3 bounds() const override;
+  double reach() const override { return kConvex; }
   /// With radius 0 the sharp box, whose vertices on edges and corners share one mean normal.
   std::optional<TriangleMesh> offsetMesh(double radius, double edgeLength) const override;
   SkeletonPtr similarityImage(const Affine3& map, double scale) const override;

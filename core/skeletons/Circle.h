@@ -23,6 +23,7 @@ public:
 
   Interval distanceRange(const Box3& box) const override;
   Box3 bounds() const override;
+  double reach() const override { return shape_.radius > 0.0 ? shape_.radius : kConvex; }
   /// Empty from `offset` = radius() on, where the torus meets itself.
   std::optional<TriangleMesh> offsetMesh(double offset, double edgeLength) const override;
   SkeletonPtr similarityImage(const Affine3& map, double scale) const override;

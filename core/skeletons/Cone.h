@@ -23,6 +23,7 @@ public:
 
   Interval distanceRange(const Box3& box) const override;
   Box3 bounds() const override;
+  double reach() const override { return kConvex; }
   /// With `offset` 0 the sharp cone, whose vertices on rims have one mean normal, as has the apex.
   std::optional<TriangleMesh> offsetMesh(double offset, double edgeLength) const override;
   SkeletonPtr similarityImage(const Affine3& map, double scale) const override;

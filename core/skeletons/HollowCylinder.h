@@ -27,6 +27,7 @@ public:
 
   Interval distanceRange(const Box3& box) const override;
   Box3 bounds() const override;
+  double reach() const override { return shape_.inner > 0.0 ? shape_.inner : kConvex; }
   /// An offset below the inner radius leaves the bore open. From there on the bore is filled and a
   /// dimple remains in each end, pointed on the axis. With `offset` 0 the sharp solid. Thin walls
   /// shorten the edges, so that outside and inside keep apart.

@@ -18,6 +18,7 @@ public:
   const Vec3& point1() const { return point1_; }
   const Vec3& point2() const { return point2_; }
 
+  double reach() const override { return kConvex; }
   SkeletonPtr similarityImage(const Affine3& map, double scale) const override;
   const char* kind() const override { return "rectangle"; }
   /// "origin", "point1", "point2".

@@ -23,8 +23,8 @@ constexpr double kGrading = 0.7;
 // their own however close to the next (40 degrees).
 constexpr double kCrease = 0.035;
 constexpr double kStrongTurn = 0.7;
-// A strip may turn this much (a right angle).
-constexpr double kMostTurn = 1.6;
+// The normal turns by no more along one strip (half a right angle, and a little).
+constexpr double kMostTurn = 0.8;
 
 // Least even number of points, 6 at least, whose chords are no longer than `size`.
 int countAround(double radial, double size)
@@ -115,12 +115,13 @@ void RingPlan::offerStation(double s, bool wanted, double& turned)
 }
 
 // The end is a station; what is too close before it is not, unless the surface turns there. The
-// middle of a symmetric meridian needs no ring where one strip reaches across.
+// middle of a symmetric meridian needs no ring where one strip reaches across, if it turns by no
+// more than a right angle.
 void RingPlan::settleLastStation(double turned)
 {
   const double gap = kGap * edgeLength_;
   if (meridian_.symmetric() && stations_.size() > 1 && 2.0 * (end_ - stations_.back().s) < gap &&
-    2.0 * turned < kMostTurn)
+    turned < kMostTurn)
   {
     middleRing_ = false;
     end_ = stations_.back().s;
@@ -189,12 +190,27 @@ void RingPlan::limitByStations()
   };
   for (std::size_t k = 0; k + 1 < stations_.size(); ++k)
   {
-    limit(stations_[k].s, stations_[k + 1].s, stations_[k + 1].s - stations_[k].s);
+    const double begin = stations_[k].s;
+    const double end = stations_[k + 1].s;
+    limit(begin, end, (end - begin) / this->leastStrips(begin, end));
   }
   if (!middleRing_)
   {
     limit(end_, end_, meridian_.length() - 2.0 * end_);
   }
+}
+
+// By the turn of the normal.
+int RingPlan::leastStrips(double begin, double end) const
+{
+  double turn = 0.0;
+  for (const Meridian::Piece& piece : meridian_.pieces())
+  {
+    const double from = std::max(begin, piece.start);
+    const double to = std::min(end, piece.start + piece.length);
+    turn += to > from ? piece.turn * (to - from) / piece.length : 0.0;
+  }
+  return std::max(1, static_cast<int>(std::ceil(turn / kMostTurn)));
 }
 
 void RingPlan::grade()
@@ -227,7 +243,8 @@ void RingPlan::findStretches()
     const double begin = stations_[k].s;
     const double end = stations_[k + 1].s;
     const bool regular = all || this->variesLittle(begin, end);
-    stretches_.push_back({ begin, end, regular, regular ? 1.0 : kIrregularScale, 0, 0 });
+    stretches_.push_back({ begin, end, regular, this->leastStrips(begin, end),
+      regular ? 1.0 : kIrregularScale, 0, 0 });
   }
 }
 
@@ -282,7 +299,7 @@ int RingPlan::stripsOf(const Stretch& stretch) const
   const int least = meridian_.loop()                          ? (around + stretches - 1) / stretches
     : middleRing_ && stretches == 1 && !meridian_.symmetric() ? 2
                                                               : 1;
-  return std::max(strips, least);
+  return std::max({ strips, least, stretch.leastStrips });
 }
 
 void RingPlan::placeRings()

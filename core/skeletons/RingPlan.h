@@ -29,6 +29,7 @@ private:
     double begin;
     double end;
     bool regular; ///< equal counts, so equilateral triangles; otherwise they may be at any phase
+    int leastStrips;
     double scale; ///< of the sizes, found by trial
     std::size_t firstRing;
     std::size_t lastRing;
@@ -40,6 +41,7 @@ private:
   void findSizes();
   void limitByRadius();
   void limitByStations();
+  int leastStrips(double begin, double end) const;
   void grade();
   void findStretches();
 

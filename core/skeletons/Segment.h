@@ -18,6 +18,7 @@ public:
 
   Interval distanceRange(const Box3& box) const override;
   Box3 bounds() const override;
+  double reach() const override { return kConvex; }
   std::optional<TriangleMesh> offsetMesh(double radius, double edgeLength) const override;
   SkeletonPtr similarityImage(const Affine3& map, double scale) const override;
   const char* kind() const override { return "segment"; }

@@ -6,6 +6,7 @@
 #include "core/geometry/Falloff.h"
 #include "core/mesh/TriangleMesh.h"
 
+#include <limits>
 #include <memory>
 #include <optional>
 
@@ -35,6 +36,12 @@ public:
   {
     this->distance(points, distance);
   }
+
+  /// Offset surfaces of a radius below this keep clear of themselves: from any point inside of one it
+  /// is radius - signedDistance() to it. Infinite for a convex skeleton; the default where that is
+  /// not known.
+  virtual double reach() const { return 0.0; }
+  static constexpr double kConvex = std::numeric_limits<double>::infinity();
 
   ///@{
   /// sum[k] += h(distance of p_k), and gradientSum k += the gradient of that: what a blend does for

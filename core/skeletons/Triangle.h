@@ -17,6 +17,7 @@ public:
   const Vec3& point2() const { return point2_; }
   const Vec3& point3() const { return point3_; }
 
+  double reach() const override { return kConvex; }
   SkeletonPtr similarityImage(const Affine3& map, double scale) const override;
   const char* kind() const override { return "triangle"; }
   /// "point1", "point2", "point3".

@@ -8,7 +8,12 @@
 #include "vtkHybridTreeBoolean.h"
 #include "vtkHybridTreeBox.h"
 #include "vtkHybridTreeCircle.h"
+#include "vtkHybridTreeCone.h"
+#include "vtkHybridTreeConeSphere.h"
+#include "vtkHybridTreeCylinder.h"
+#include "vtkHybridTreeDisc.h"
 #include "vtkHybridTreeFreeFormDeformation.h"
+#include "vtkHybridTreeHollowCylinder.h"
 #include "vtkHybridTreeLocalBlend.h"
 #include "vtkHybridTreeMeshField.h"
 #include "vtkHybridTreeTaper.h"
@@ -33,9 +38,17 @@ TEST(Nodes, SourcesAreSolidByDefault)
   vtkNew<vtkHybridTreeSegment> segment;
   vtkNew<vtkHybridTreeCircle> circle;
   vtkNew<vtkHybridTreeBox> box;
+  vtkNew<vtkHybridTreeDisc> disc;
+  vtkNew<vtkHybridTreeCylinder> cylinder;
+  vtkNew<vtkHybridTreeHollowCylinder> tube;
+  vtkNew<vtkHybridTreeCone> cone;
+  vtkNew<vtkHybridTreeConeSphere> limb;
   for (vtkHybridTreeAlgorithm* source :
     { static_cast<vtkHybridTreeAlgorithm*>(point), static_cast<vtkHybridTreeAlgorithm*>(segment),
-      static_cast<vtkHybridTreeAlgorithm*>(circle), static_cast<vtkHybridTreeAlgorithm*>(box) })
+      static_cast<vtkHybridTreeAlgorithm*>(circle), static_cast<vtkHybridTreeAlgorithm*>(box),
+      static_cast<vtkHybridTreeAlgorithm*>(disc), static_cast<vtkHybridTreeAlgorithm*>(cylinder),
+      static_cast<vtkHybridTreeAlgorithm*>(tube), static_cast<vtkHybridTreeAlgorithm*>(cone),
+      static_cast<vtkHybridTreeAlgorithm*>(limb) })
   {
     SCOPED_TRACE(source->GetClassName());
     source->Update();

@@ -59,6 +59,8 @@ def leaves():
     point.Center = [0, 0, 0]
     expect_mended(point)
     expect(plugin.HybridTreeCircle(Normal=[0, 0, 0]), "ormal")
+    expect(plugin.HybridTreeCylinder(Point1=[1, 2, 3], Point2=[1, 2, 3]), "Point2 - Point1", "length")
+    expect(plugin.HybridTreeHollowCylinder(InnerRadius=0.9), "InnerRadius", "0.9", "OuterRadius")
     return point
 
 

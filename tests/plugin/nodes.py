@@ -28,6 +28,12 @@ def pipeline(folder):
         "HybridTreeMeshField": make["HybridTreeMeshField"](Input=cow, InfluenceRadius=0.1),
     }
     point, segment, circle, box, mesh = list(nodes.values())[:5]
+    nodes["HybridTreeDisc"] = make["HybridTreeDisc"](Center=[0.1, 0, 0.2], Normal=[1, 2, 0], Radius=0.3)
+    ends = {"Point1": [-0.3, 0, 0.1], "Point2": [0.3, 0.2, 0]}
+    nodes["HybridTreeCylinder"] = make["HybridTreeCylinder"](Radius=0.2, SurfaceRadius=0, **ends)
+    nodes["HybridTreeHollowCylinder"] = make["HybridTreeHollowCylinder"](OuterRadius=0.3, InnerRadius=0.2, **ends)
+    nodes["HybridTreeCone"] = make["HybridTreeCone"](Radius1=0.3, Radius2=0, **ends)
+    nodes["HybridTreeConeSphere"] = make["HybridTreeConeSphere"](Radius1=0.2, Radius2=0.1, **ends)
     nodes["HybridTreeBlend"] = make["HybridTreeBlend"](Input=[mesh, point, segment])
     nodes["HybridTreeLocalBlend"] = make["HybridTreeLocalBlend"](A=cow, B=circle, Region=point)
     nodes["HybridTreeBoolean"] = make["HybridTreeBoolean"](A=nodes["HybridTreeBlend"], B=box, Operation="Difference A - B")

@@ -22,6 +22,11 @@ NAMES = {
     "HybridTreeSegment": FIELD | {"Point1", "Point2"},
     "HybridTreeCircle": FIELD | {"Center", "Normal", "Radius"},
     "HybridTreeBox": FIELD | {"Center", "Lengths", "Rotation"},
+    "HybridTreeDisc": FIELD | {"Center", "Normal", "Radius"},
+    "HybridTreeCylinder": FIELD | {"Point1", "Point2", "Radius"},
+    "HybridTreeHollowCylinder": FIELD | {"Point1", "Point2", "OuterRadius", "InnerRadius"},
+    "HybridTreeCone": FIELD | {"Point1", "Point2", "Radius1", "Radius2"},
+    "HybridTreeConeSphere": FIELD | {"Point1", "Point2", "Radius1", "Radius2"},
     "HybridTreeMeshField": (FIELD - {"SurfaceRadius"}) | {"Input"},
     "HybridTreeBlend": BLEND | {"Input"},
     "HybridTreeLocalBlend": BLEND | {"A", "B", "Region"},
@@ -48,9 +53,9 @@ def properties(proxy):
         iterator.Next()
 
 
-def printed(proxy):
-    """What PrintSelf says of the VTK object: {name: text}."""
-    text = str(proxy.GetClientSideObject())
+def printed(algorithm):
+    """What PrintSelf says of a VTK object: {name: text}."""
+    text = str(algorithm)
     return dict(re.findall(r"^  ([A-Z]\w*): (.*)$", text, re.MULTILINE))
 
 
@@ -104,11 +109,13 @@ def check(name):
 
     assert set(input_names(proxy)) == NAMES[name] & INPUTS, f"{name} takes {set(input_names(proxy))}"
 
-    # Defaults of the XML are those of the class: the first push changes nothing.
-    before = printed(proxy)
+    # Defaults of the XML, which are pushed to every new object, are those of the class.
+    algorithm = proxy.GetClientSideObject()
+    before = printed(algorithm.NewInstance())
     proxy.UpdateVTKObjects()
-    after = printed(proxy)
-    assert before == after, f"{name}: {set(before.items()) ^ set(after.items())}"
+    after = printed(algorithm)
+    differing = {key for key in found if before.get(key) != after.get(key)}
+    assert not differing, f"{name}: the defaults of {differing} are not those of the class"
 
     for key, prop in found.items():
         documentation = prop.GetDocumentation()
@@ -128,7 +135,7 @@ def check(name):
         for index, element in enumerate(value):
             prop.SetElement(index, element)
         proxy.UpdateVTKObjects()
-        now = printed(proxy)
+        now = printed(algorithm)
         assert now.get(key) != after.get(key), f"{name}.{key} does not reach the VTK object: {now}"
     return len(found)
 

@@ -10,7 +10,12 @@
 #include "core/nodes/Primitive.h"
 #include "core/skeletons/Box.h"
 #include "core/skeletons/Circle.h"
+#include "core/skeletons/Cone.h"
+#include "core/skeletons/ConeSphere.h"
+#include "core/skeletons/Cylinder.h"
+#include "core/skeletons/Disc.h"
 #include "core/skeletons/Ellipsoid.h"
+#include "core/skeletons/HollowCylinder.h"
 #include "core/skeletons/Point.h"
 #include "core/skeletons/Rectangle.h"
 #include "core/skeletons/Segment.h"
@@ -80,12 +85,37 @@ private:
     }
   }
 
+  // Of revolution about an axis that has a direction.
+  SkeletonPtr roundSkeleton()
+  {
+    const Vec3 start = this->place();
+    const Vec3 end = start + random_.uniform(0.2, 0.8) * random_.direction();
+    const double radius = random_.uniform(0.1, 0.4);
+    const double share = random_.uniform(0.0, 1.0);
+    switch (random_.integer(0, 4))
+    {
+      case 0:
+        return std::make_shared<DiscSkeleton>(start, random_.direction(), radius);
+      case 1:
+        return std::make_shared<CylinderSkeleton>(start, end, radius);
+      case 2:
+        return std::make_shared<HollowCylinderSkeleton>(start, end, radius, share * radius);
+      case 3:
+        return std::make_shared<ConeSkeleton>(start, end, radius, share * radius);
+      default:
+        return std::make_shared<ConeSphereSkeleton>(start, end, radius, share * radius);
+    }
+  }
+
   SkeletonPtr skeleton()
   {
-    switch (random_.integer(0, 4))
+    switch (random_.integer(0, 6))
     {
       case 4:
         return this->flatOrEllipsoid();
+      case 5:
+      case 6:
+        return this->roundSkeleton();
       case 0:
         return std::make_shared<PointSkeleton>(this->place());
       case 1:

@@ -10,7 +10,12 @@
 #include "core/nodes/Primitive.h"
 #include "core/skeletons/Box.h"
 #include "core/skeletons/Circle.h"
+#include "core/skeletons/Cone.h"
+#include "core/skeletons/ConeSphere.h"
+#include "core/skeletons/Cylinder.h"
+#include "core/skeletons/Disc.h"
 #include "core/skeletons/Ellipsoid.h"
+#include "core/skeletons/HollowCylinder.h"
 #include "core/skeletons/Point.h"
 #include "core/skeletons/Polygon.h"
 #include "core/skeletons/Rectangle.h"
@@ -84,6 +89,27 @@ NodePtr snake()
       makePrimitive(std::make_shared<SegmentSkeleton>(at(k), at(k + 1)), potential(0.06, 0.15, 2)));
   }
   return makeBlend(parts);
+}
+
+void addRound(std::vector<NodeCase>& cases)
+{
+  const Vec3 a(-0.4, 0.1, -0.3);
+  const Vec3 b(0.3, -0.2, 0.4);
+  const auto add = [&](const char* name, SkeletonPtr skeleton, double surface, double influence) {
+    cases.push_back({ name, makePrimitive(std::move(skeleton), potential(surface, influence)) });
+  };
+  add("SpindleTorus", std::make_shared<CircleSkeleton>(a, b, 0.2), 0.3, 0.6);
+  add("Disc", std::make_shared<DiscSkeleton>(a, b, 0.6), 0.15, 0.4);
+  add("Cylinder", std::make_shared<CylinderSkeleton>(a, b, 0.3), 0.1, 0.4);
+  add("SharpCylinder", std::make_shared<CylinderSkeleton>(a, b, 0.4), 0.0, 0.3);
+  add("HollowCylinder", std::make_shared<HollowCylinderSkeleton>(a, b, 0.6, 0.4), 0.1, 0.3);
+  add("FilledHollowCylinder", std::make_shared<HollowCylinderSkeleton>(a, b, 0.5, 0.2), 0.3, 0.6);
+  add("Cone", std::make_shared<ConeSkeleton>(a, b, 0.4, 0.2), 0.1, 0.4);
+  add("PointedCone", std::make_shared<ConeSkeleton>(a, b, 0.0, 0.5), 0.0, 0.4);
+  add("ConeSphere", std::make_shared<ConeSphereSkeleton>(a, b, 0.3, 0.1), 0.1, 0.4);
+  cases.push_back({ "ShearedHollowCylinder",
+    makePrimitive(std::make_shared<HollowCylinderSkeleton>(a, b, 0.6, 0.4), potential(0.1, 0.3))
+      ->affine(shear()) });
 }
 
 NodePtr meshLeaf(TriangleMesh mesh, double maximumField = 1.0)
@@ -261,6 +287,7 @@ std::vector<NodeCase> nodeCases()
   cases.push_back({ "ShearedBox", block()->affine(shear()) });
   cases.push_back({ "Hole", hole(Vec3(0.1, 0.2, 0.3)) });
   addPlates(cases);
+  addRound(cases);
   addMeshes(cases);
   addBlends(cases);
   addBooleans(cases);
