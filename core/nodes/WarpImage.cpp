@@ -66,8 +66,8 @@ double imageArea(const TriangleMesh& mesh, const SpaceWarp& warp, const Progress
 
 } // namespace
 
-void overBatches(std::vector<Vec3>& points, std::size_t begin,
-  const std::function<void(PointBatch, VectorBatch)>& map, const Progress& progress)
+void mapForward(
+  const SpaceWarp& warp, std::vector<Vec3>& points, std::size_t begin, const Progress& progress)
 {
   parallelFor(points.size() - begin, kGrain,
     [&](std::size_t from, std::size_t to)
@@ -78,19 +78,12 @@ void overBatches(std::vector<Vec3>& points, std::size_t begin,
       {
         batch.batch().set(k - from, points[begin + k]);
       }
-      map(batch.points(), batch.batch());
+      warp.forward(batch.points(), batch.batch());
       for (std::size_t k = from; k < to; ++k)
       {
         points[begin + k] = batch.batch()[k - from];
       }
     });
-}
-
-void mapForward(
-  const SpaceWarp& warp, std::vector<Vec3>& points, std::size_t begin, const Progress& progress)
-{
-  overBatches(
-    points, begin, [&](PointBatch from, VectorBatch to) { warp.forward(from, to); }, progress);
 }
 
 void mapNormals(const SpaceWarp& warp, const std::vector<Vec3>& points, std::vector<Vec3>& normals)

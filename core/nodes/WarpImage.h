@@ -5,18 +5,13 @@
 #include "core/mesh/TriangleMesh.h"
 #include "core/nodes/SpaceWarp.h"
 
-#include <functional>
 #include <vector>
 
 namespace hybridtree
 {
 
-/// Runs a batch function over the points from `begin` on, in parallel. The batches depend on the
-/// number of points alone. \throws Cancelled. The same of the others.
-void overBatches(std::vector<Vec3>& points, std::size_t begin,
-  const std::function<void(PointBatch, VectorBatch)>& map, const Progress& progress);
-
-/// Replaces the points from `begin` on by their images.
+/// Replaces the points from `begin` on by their images, in parallel. \throws Cancelled. The same of
+/// the others.
 void mapForward(
   const SpaceWarp& warp, std::vector<Vec3>& points, std::size_t begin, const Progress& progress);
 

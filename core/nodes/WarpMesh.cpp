@@ -2,10 +2,9 @@
 #include "core/nodes/WarpMesh.h"
 
 #include "core/base/Error.h"
-#include "core/base/Parallel.h"
-#include "core/base/Scratch.h"
 #include "core/mesh/Remesh.h"
 #include "core/mesh/SmoothNormals.h"
+#include "core/nodes/SurfaceProjection.h"
 #include "core/nodes/WarpImage.h"
 
 #include <algorithm>
@@ -23,7 +22,6 @@ constexpr double kLongEdge = 4.0 / 3.0; // edge lengths, as in remeshStretched
 constexpr double kStretch = 1.1;        // of an edge, below which its length is its own affair
 constexpr double kBow = 0.01;           // edge lengths between an edge's image and its chord
 constexpr int kMaxRounds = 24;          // each halves every long edge
-constexpr int kNewtonSteps = 8;
 
 using Edge = std::array<std::int32_t, 2>;
 
@@ -397,59 +395,7 @@ void mendShapes(TriangleMesh& mesh, double edgeLength, const Progress& progress)
   remeshStretched(mesh, options, nullptr, progress);
 }
 
-// One Newton step for every point of a batch that is not yet on the surface.
-void newtonStep(const FieldSource& field, PointBatch points, VectorBatch moved)
-{
-  ScratchArray value(points.size);
-  ScratchVectors gradient(points.size);
-  field.fieldAndGradient(points, value.data(), gradient.batch());
-  for (std::size_t k = 0; k < points.size; ++k)
-  {
-    const Vec3 g = gradient.batch()[k];
-    const double squared = g.squaredNorm();
-    const Vec3 step = squared > 0.0 ? Vec3(g * ((kThreshold - value[k]) / squared)) : Vec3::Zero();
-    moved.set(k, points[k] + (step.allFinite() ? step : Vec3::Zero()));
-  }
-}
-
 } // namespace
-
-void projectOntoSurface(const FieldSource& field, double reach, std::vector<Vec3>& points,
-  std::vector<Vec3>& normals, const Progress& progress)
-{
-  std::vector<Vec3> moved = points;
-  for (int step = 0; step < kNewtonSteps; ++step)
-  {
-    overBatches(
-      moved, 0, [&](PointBatch from, VectorBatch to) { newtonStep(field, from, to); }, progress);
-  }
-  parallelFor(points.size(), kGrain,
-    [&](std::size_t begin, std::size_t end)
-    {
-      progress.check();
-      ScratchVectors place(end - begin);
-      ScratchVectors gradient(end - begin);
-      ScratchArray value(end - begin);
-      for (std::size_t k = begin; k < end; ++k)
-      {
-        const bool near = (moved[k] - points[k]).norm() <= reach;
-        place.batch().set(k - begin, near ? moved[k] : points[k]);
-      }
-      field.fieldAndGradient(place.points(), value.data(), gradient.batch());
-      for (std::size_t k = begin; k < end; ++k)
-      {
-        const Vec3 g = gradient.batch()[k - begin];
-        if (std::abs(value[k - begin] - kThreshold) <= 1e-6 + 1e-3 * reach * g.norm())
-        {
-          points[k] = place.batch()[k - begin];
-          if (!normals.empty() && g.norm() > 0.0)
-          {
-            normals[k] = -g.stableNormalized();
-          }
-        }
-      }
-    });
-}
 
 std::vector<Vec3> pointNormals(const TriangleMesh& mesh)
 {

@@ -24,12 +24,6 @@ namespace hybridtree
 TriangleMesh warpedMesh(const TriangleMesh& mesh, const SpaceWarp& warp, double edgeLength,
   const Node& node, const Progress& progress = Progress::none());
 
-/// Moves points onto f = T by Newton steps along the gradient, each by no more than `reach` in all;
-/// a point that does not get there stays where it was. Normals become -grad f / |grad f| at those
-/// that did.
-void projectOntoSurface(const FieldSource& field, double reach, std::vector<Vec3>& points,
-  std::vector<Vec3>& normals, const Progress& progress = Progress::none());
-
 /// Area-weighted unit normals of the points, from the triangles around them.
 std::vector<Vec3> pointNormals(const TriangleMesh& mesh);
 
