@@ -12,11 +12,15 @@
 #include "vtkHybridTreeConeSphere.h"
 #include "vtkHybridTreeCylinder.h"
 #include "vtkHybridTreeDisc.h"
+#include "vtkHybridTreeEllipsoid.h"
 #include "vtkHybridTreeFreeFormDeformation.h"
 #include "vtkHybridTreeHollowCylinder.h"
 #include "vtkHybridTreeLocalBlend.h"
 #include "vtkHybridTreeMeshField.h"
+#include "vtkHybridTreePolygon.h"
+#include "vtkHybridTreeRectangle.h"
 #include "vtkHybridTreeTaper.h"
+#include "vtkHybridTreeTriangle.h"
 #include "vtkHybridTreeTwist.h"
 #include "vtkMath.h"
 #include "vtkSphereSource.h"
@@ -43,18 +47,71 @@ TEST(Nodes, SourcesAreSolidByDefault)
   vtkNew<vtkHybridTreeHollowCylinder> tube;
   vtkNew<vtkHybridTreeCone> cone;
   vtkNew<vtkHybridTreeConeSphere> limb;
+  vtkNew<vtkHybridTreeRectangle> rectangle;
+  vtkNew<vtkHybridTreeTriangle> triangle;
+  vtkNew<vtkHybridTreePolygon> polygon;
+  vtkNew<vtkHybridTreeEllipsoid> ellipsoid;
   for (vtkHybridTreeAlgorithm* source :
     { static_cast<vtkHybridTreeAlgorithm*>(point), static_cast<vtkHybridTreeAlgorithm*>(segment),
       static_cast<vtkHybridTreeAlgorithm*>(circle), static_cast<vtkHybridTreeAlgorithm*>(box),
       static_cast<vtkHybridTreeAlgorithm*>(disc), static_cast<vtkHybridTreeAlgorithm*>(cylinder),
       static_cast<vtkHybridTreeAlgorithm*>(tube), static_cast<vtkHybridTreeAlgorithm*>(cone),
-      static_cast<vtkHybridTreeAlgorithm*>(limb) })
+      static_cast<vtkHybridTreeAlgorithm*>(limb), static_cast<vtkHybridTreeAlgorithm*>(rectangle),
+      static_cast<vtkHybridTreeAlgorithm*>(triangle), static_cast<vtkHybridTreeAlgorithm*>(polygon),
+      static_cast<vtkHybridTreeAlgorithm*>(ellipsoid) })
   {
     SCOPED_TRACE(source->GetClassName());
     source->Update();
     expectSolid(source->GetOutput());
     EXPECT_EQ(source->GetOutput()->GetPoints()->GetDataType(), VTK_DOUBLE);
   }
+}
+
+TEST(Nodes, PlatesAndEllipsoidsAreWhatTheirPropertiesSay)
+{
+  const double r = 0.1;
+  const auto expectVolume = [](vtkHybridTreeAlgorithm* source, double volume)
+  {
+    source->SetEdgeLength(0.03);
+    source->Update();
+    EXPECT_NEAR(signedVolume(trianglesOf(source->GetOutput())), volume, 0.01 * volume)
+      << source->GetClassName();
+  };
+  const auto plate = [r](double area, double outline)
+  { return 2.0 * r * area + 0.5 * EIGEN_PI * r * r * outline + 4.0 / 3.0 * EIGEN_PI * r * r * r; };
+  vtkNew<vtkHybridTreeRectangle> rectangle;
+  rectangle->SetOrigin(1.0, 2.0, 3.0);
+  rectangle->SetPoint1(3.0, 2.0, 3.0);
+  rectangle->SetPoint2(1.0, 2.0, 4.0);
+  expectVolume(rectangle, plate(2.0, 6.0));
+  vtkNew<vtkHybridTreeTriangle> triangle;
+  triangle->SetPoint1(0.0, 0.0, 1.0);
+  triangle->SetPoint2(0.3, 0.0, 1.0);
+  triangle->SetPoint3(0.0, 0.4, 1.0);
+  expectVolume(triangle, plate(0.06, 1.2));
+  vtkNew<vtkHybridTreePolygon> polygon;
+  EXPECT_EQ(polygon->GetNumberOfPoints(), 6);
+  polygon->SetNumberOfPoints(4);
+  polygon->SetPoint(2, 0.5, 0.5, 0.0);
+  polygon->SetPoint(3, -0.5, 0.5, 0.0);
+  expectVolume(polygon, plate(1.0, 4.0));
+  vtkNew<vtkHybridTreeEllipsoid> ellipsoid;
+  ellipsoid->SetRadii(0.5, 0.3, 0.8);
+  ellipsoid->SetRotation(10.0, 20.0, 30.0);
+  ellipsoid->SetSurfaceRadius(0.0);
+  expectVolume(ellipsoid, 4.0 / 3.0 * EIGEN_PI * 0.5 * 0.3 * 0.8);
+}
+
+TEST(Nodes, APolygonThatMeetsItselfIsAnErrorThatSaysSo)
+{
+  vtkNew<vtkHybridTreePolygon> polygon;
+  polygon->SetNumberOfPoints(4);
+  polygon->SetPoint(2, -0.5, 0.5, 0.0);
+  polygon->SetPoint(3, 0.4, 0.5, 0.0);
+  const Messages messages(polygon);
+  polygon->Update();
+  EXPECT_NE(messages.errors.find("does not meet itself"), std::string::npos) << messages.errors;
+  EXPECT_EQ(polygon->GetOutput()->GetNumberOfPoints(), 0);
 }
 
 TEST(Nodes, OperatorsAndWarpsAreSolidByDefaultAtAnySizeAndPlace)

@@ -25,9 +25,18 @@ def pipeline(folder):
         "HybridTreeBox": make["HybridTreeBox"](
             Center=[-0.2, 0, 0], Lengths=[0.3, 0.2, 0.4], Rotation=[10, 20, 30], SurfaceRadius=0.02,
             InfluenceRadius=0.1),
+        "HybridTreeRectangle": make["HybridTreeRectangle"](
+            Origin=[0, 0, 0], Point1=[0.4, 0, 0.1], Point2=[0, 0.3, 0], SurfaceRadius=0.03, InfluenceRadius=0.1),
+        "HybridTreeTriangle": make["HybridTreeTriangle"](
+            Point1=[0, 0, 0], Point2=[0.4, 0, 0.1], Point3=[0, 0.3, 0], SurfaceRadius=0.03, InfluenceRadius=0.1),
+        "HybridTreePolygon": make["HybridTreePolygon"](
+            Points=[0, 0, 0, 0.4, 0, 0, 0.1, 0.1, 0, 0, 0.4, 0], SurfaceRadius=0.02, InfluenceRadius=0.1),
+        "HybridTreeEllipsoid": make["HybridTreeEllipsoid"](
+            Center=[0.1, 0, 0], Radii=[0.2, 0.1, 0.05], Rotation=[10, 20, 30], SurfaceRadius=0.02, InfluenceRadius=0.1),
         "HybridTreeMeshField": make["HybridTreeMeshField"](Input=cow, InfluenceRadius=0.1),
     }
-    point, segment, circle, box, mesh = list(nodes.values())[:5]
+    point, segment, circle, box = list(nodes.values())[:4]
+    mesh = nodes["HybridTreeMeshField"]
     nodes["HybridTreeDisc"] = make["HybridTreeDisc"](Center=[0.1, 0, 0.2], Normal=[1, 2, 0], Radius=0.3)
     ends = {"Point1": [-0.3, 0, 0.1], "Point2": [0.3, 0.2, 0]}
     nodes["HybridTreeCylinder"] = make["HybridTreeCylinder"](Radius=0.2, SurfaceRadius=0, **ends)
