@@ -254,17 +254,19 @@ std::size_t RingPlan::sampleBelow(double s) const
   return static_cast<std::size_t>(std::clamp(std::floor(s / step_), 0.0, last));
 }
 
+// How many points rings want. The same for all then is a little more than needed for most.
 bool RingPlan::variesLittle(double begin, double end) const
 {
-  double least = std::min(meridian_.at(begin).position.x(), meridian_.at(end).position.x());
-  double most = std::max(meridian_.at(begin).position.x(), meridian_.at(end).position.x());
+  const auto wanted = [&](double s) { return meridian_.at(s).position.x() / this->sizeAt(s); };
+  double least = std::min(wanted(begin), wanted(end));
+  double most = std::max(wanted(begin), wanted(end));
   for (std::size_t k = this->sampleBelow(begin) + 1;
        k < radial_.size() && step_ * static_cast<double>(k) < end; ++k)
   {
-    least = std::min(least, radial_[k]);
-    most = std::max(most, radial_[k]);
+    least = std::min(least, radial_[k] / size_[k]);
+    most = std::max(most, radial_[k] / size_[k]);
   }
-  return least >= 0.6 * most;
+  return least >= (0.6 - 1e-9) * most; // the same for similar shapes, which are rounded
 }
 
 double RingPlan::sizeAt(double s) const
