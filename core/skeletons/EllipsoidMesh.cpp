@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/skeletons/EllipsoidMesh.h"
 
+#include "core/skeletons/LongestEdge.h"
 #include "core/skeletons/OffsetMesh.h"
 
 #include <algorithm>
@@ -281,20 +282,6 @@ private:
   std::vector<Ring> upper_, lower_; // from the equator to the poles
   TriangleMesh mesh_;
 };
-
-double longestEdge(const TriangleMesh& mesh)
-{
-  double squared = 0.0;
-  for (const Triangle& t : mesh.triangles)
-  {
-    for (int side = 0; side < 3; ++side)
-    {
-      squared =
-        std::max(squared, (mesh.points[t[side]] - mesh.points[t[(side + 1) % 3]]).squaredNorm());
-    }
-  }
-  return std::sqrt(squared);
-}
 
 } // namespace
 

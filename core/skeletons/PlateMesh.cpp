@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/skeletons/PlateMesh.h"
 
+#include "core/skeletons/LongestEdge.h"
 #include "core/skeletons/OffsetMesh.h"
 #include "core/skeletons/PlateFace.h"
 #include "core/skeletons/PlateRim.h"
@@ -188,20 +189,6 @@ private:
   std::vector<int> firstOfRing_[2]; // of rings 1, 2, ...; above and below
   TriangleMesh mesh_;
 };
-
-double longestEdge(const TriangleMesh& mesh)
-{
-  double squared = 0.0;
-  for (const Triangle& t : mesh.triangles)
-  {
-    for (int side = 0; side < 3; ++side)
-    {
-      squared =
-        std::max(squared, (mesh.points[t[side]] - mesh.points[t[(side + 1) % 3]]).squaredNorm());
-    }
-  }
-  return std::sqrt(squared);
-}
 
 } // namespace
 
