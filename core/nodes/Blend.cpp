@@ -4,9 +4,9 @@
 #include "core/base/Error.h"
 #include "core/base/Scratch.h"
 #include "core/nodes/BlendHierarchy.h"
+#include "core/nodes/BlendMesh.h"
 #include "core/nodes/BlendSource.h"
 #include "core/nodes/EnumNames.h"
-#include "core/nodes/LatticeMesh.h"
 #include "core/nodes/Membership.h"
 #include "core/nodes/Operator.h"
 
@@ -129,10 +129,15 @@ public:
     return parameters;
   }
 
+  std::vector<std::string> warnings() const override { return meshWarnings_.all(); }
+
 protected:
   TriangleMesh makeMesh(double edgeLength, const Progress& progress) const override
   {
-    return latticeMesh(*this, edgeLength, progress);
+    BlendMeshReport report;
+    TriangleMesh mesh = blendMesh(*this, this->meshParts(), options_, edgeLength, report, progress);
+    meshWarnings_.add(report.warning);
+    return mesh;
   }
 
   NodePtr withChildren(std::vector<NodePtr> children) const override
@@ -177,6 +182,33 @@ private:
       leavesBefore += child->leafCount();
     }
     return terms;
+  }
+
+  // What a mesh is made of, by the method: the children, or what the leaves of nested blends are.
+  std::vector<BlendPart> meshParts() const
+  {
+    std::vector<BlendPart> parts;
+    if (options_.method != BlendMethod::NodeBased)
+    {
+      for (const Term& term : hierarchy_.terms())
+      {
+        parts.push_back({ term.node, term.firstLeaf, term.count });
+      }
+      return parts;
+    }
+    std::unordered_map<const Node*, std::size_t> place;
+    int leavesBefore = 0;
+    for (const NodePtr& child : this->children())
+    {
+      const auto [known, isNew] = place.emplace(child.get(), parts.size());
+      if (isNew)
+      {
+        parts.push_back({ child.get(), leavesBefore, 0 });
+      }
+      parts[known->second].count += 1;
+      leavesBefore += child->leafCount();
+    }
+    return parts;
   }
 
   template <typename Body>
@@ -301,6 +333,7 @@ private:
 
   BlendOptions options_;
   BlendHierarchy hierarchy_;
+  MeshWarnings meshWarnings_;
   Box3 influence_;
   Box3 surface_;
   bool negative_ = true;

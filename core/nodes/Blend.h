@@ -7,18 +7,18 @@
 namespace hybridtree
 {
 
-/// How the mesh of a blend is made ([HT] 5.2.1).
+/// How the mesh of a blend is made ([HT] 5.2.1). The surface is the same; what differs is how much
+/// of the operands' own meshes is in it.
 enum class BlendMethod
 {
-  Automatic,
-  NodeBased,
-  PrimitiveBased,
-  Global
+  Automatic,      ///< primitive-based where that is faster, else global
+  NodeBased,      ///< the children's meshes stand where one child is alone
+  PrimitiveBased, ///< through nested blends, those of what is blended: less is made anew
+  Global          ///< all from the field, over the lattice
 };
 
 struct BlendOptions
 {
-  /// Kept with the node; every method polygonizes the whole blend over the lattice for now.
   BlendMethod method = BlendMethod::Automatic;
   /// Overlap ratio rho_0 up to which operands keep their own triangles. No unit, 0 to 1.
   double overlapThreshold = 0.5;

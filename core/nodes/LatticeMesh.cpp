@@ -1,37 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/nodes/LatticeMesh.h"
 
-#include "core/base/Parallel.h"
-#include "core/base/Scratch.h"
 #include "core/mesh/SmoothNormals.h"
+#include "core/nodes/TriangleSources.h"
 #include "core/polygonize/Polygonize.h"
 
 namespace hybridtree
 {
-namespace
-{
-
-constexpr std::size_t kTrianglesPerTask = 512;
-
-void findSourceLeaves(const Node& node, TriangleMesh& mesh, const Progress& progress)
-{
-  mesh.sourceLeaf.resize(mesh.triangles.size());
-  parallelFor(mesh.triangles.size(), kTrianglesPerTask,
-    [&](std::size_t begin, std::size_t end)
-    {
-      progress.check();
-      ScratchVectors centroids(end - begin);
-      for (std::size_t t = begin; t < end; ++t)
-      {
-        const Triangle& c = mesh.triangles[t];
-        centroids.batch().set(
-          t - begin, (mesh.points[c[0]] + mesh.points[c[1]] + mesh.points[c[2]]) / 3.0);
-      }
-      node.sourceLeaf(centroids.points(), &mesh.sourceLeaf[begin]);
-    });
-}
-
-} // namespace
 
 TriangleMesh latticeMesh(const Node& node, double edgeLength, const Progress& progress)
 {
@@ -49,7 +24,7 @@ TriangleMesh latticeMesh(const Node& node, double edgeLength, const Progress& pr
   PolygonizeOptions options;
   options.cellSize = edgeLength;
   TriangleMesh mesh = polygonize(node, bounds, options, ProgressPart(progress, 0.0, 0.9));
-  findSourceLeaves(node, mesh, progress);
+  findSourceLeaves(node, mesh, 0, progress);
   if (node.isFaceted())
   {
     smoothNormals(mesh);

@@ -2,8 +2,9 @@
 #include "core/nodes/LocalBlend.h"
 
 #include "core/base/Scratch.h"
+#include "core/nodes/BlendMesh.h"
+#include "core/nodes/Boolean.h"
 #include "core/nodes/BooleanSource.h"
-#include "core/nodes/LatticeMesh.h"
 #include "core/nodes/Membership.h"
 #include "core/nodes/Operator.h"
 
@@ -138,6 +139,7 @@ public:
     , region_(this->child(2).get())
     , options_(options)
     , source_(this->child(0), this->child(1), this->child(2))
+    , union_(makeBoolean(kUnion, this->child(0), this->child(1), kSmooth))
   {
     negative_ = a_->isNegative() && b_->isNegative();
     influence_ = this->findInfluenceBounds();
@@ -218,10 +220,16 @@ public:
     return parameters;
   }
 
+  std::vector<std::string> warnings() const override { return meshWarnings_.all(); }
+
 protected:
   TriangleMesh makeMesh(double edgeLength, const Progress& progress) const override
   {
-    return latticeMesh(*this, edgeLength, progress);
+    BlendMeshReport report;
+    TriangleMesh mesh = localBlendMesh(
+      *this, { a_, b_, region_, union_.get() }, options_, edgeLength, report, progress);
+    meshWarnings_.add(report.warning);
+    return mesh;
   }
 
   NodePtr withChildren(std::vector<NodePtr> children) const override
@@ -273,6 +281,8 @@ private:
   const Node* region_;
   BlendOptions options_;
   LocalBlendSource source_;
+  NodePtr union_; ///< what this is outside of the region
+  MeshWarnings meshWarnings_;
   Box3 influence_;
   Box3 surface_;
   bool negative_ = false;

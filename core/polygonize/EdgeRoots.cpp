@@ -151,7 +151,8 @@ private:
   {
     const CrossedEdge& edge = edges_[k];
     Vec3 point = lattice_.point(edge.low);
-    point[edge.axis] = (static_cast<double>(edge.low[edge.axis]) + t) * lattice_.cellSize;
+    point[edge.axis] = lattice_.origin[edge.axis] +
+      (static_cast<double>(edge.low[edge.axis]) + t) * lattice_.cellSize;
     return point;
   }
 

@@ -15,18 +15,20 @@ using Index3 = std::array<std::int64_t, 3>;
 struct Lattice
 {
   double cellSize = 1.0;
-  Index3 low{};  ///< first and
-  Index3 high{}; ///< last point, both included, of the region where the field counts
+  Vec3 origin = Vec3::Zero(); ///< of point 0, 0, 0, for lattices that are not the world's
+  Index3 low{};               ///< first and
+  Index3 high{};              ///< last point, both included, of the region where the field counts
 
   /// The part that covers `bounds`, rounded outwards.
   /// \throws InvalidParameter, TooLarge as polygonize(). \pre bounds not empty.
   static Lattice covering(const Box3& bounds, double cellSize);
 
-  /// Always this product, so that equal indices are equal numbers.
+  /// From the origin. Always this product, so that equal indices are equal numbers.
   double coordinate(std::int64_t index) const { return static_cast<double>(index) * cellSize; }
   Vec3 point(const Index3& index) const
   {
-    return { this->coordinate(index[0]), this->coordinate(index[1]), this->coordinate(index[2]) };
+    return { origin[0] + this->coordinate(index[0]), origin[1] + this->coordinate(index[1]),
+      origin[2] + this->coordinate(index[2]) };
   }
   bool contains(const Index3& index) const
   {

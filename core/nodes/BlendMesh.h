@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "core/nodes/Blend.h"
+#include "core/nodes/MarkedCells.h"
+
+#include <cstddef>
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace hybridtree
+{
+
+/// A node whose mesh may be kept in that of a blend.
+struct BlendPart
+{
+  const Node* node = nullptr;
+  std::int32_t firstLeaf = 0; ///< of the node, among those of the blend
+  std::int32_t count = 1;     ///< how often its field counts; more than once, and it has no mesh
+};
+
+/// How a mesh came to be.
+struct BlendMeshReport
+{
+  BlendMethod method = BlendMethod::Global; ///< Global where everything was polygonized
+  std::size_t samplePoints = 0;             ///< new points on the surface
+  std::size_t keptTriangles = 0;            ///< of the parts, as they are
+  std::size_t cutTriangles = 0;
+  std::size_t newTriangles = 0;
+  int rounds = 0;      ///< of marking, cutting and polygonizing; more than 1 after a repair
+  std::string warning; ///< what the user should know; empty if all went well
+};
+
+/// Warnings of meshing, each once, for Node::warnings(). Thread-safe.
+class MeshWarnings
+{
+public:
+  void add(const std::string& warning) const;
+  std::vector<std::string> all() const;
+
+private:
+  mutable std::mutex mutex_;
+  mutable std::vector<std::string> warnings_;
+};
+
+/// Mesh of a global blend ([HT] 5.2.1, 5.2.2): the parts' own meshes where nothing blends, the
+/// lattice where something does.
+///
+/// A part with an overlap ratio above options.overlapThreshold gives up its mesh: all it reaches is
+/// polygonized. The ratio is the share of its influence box that lies in those of the others. For
+/// two parts these are the three cases of [HT]; for more, its primitive-based ratios. A part that
+/// gives up its mesh is never meshed, so that blends below one another which overlap strongly are
+/// polygonized in one go: the clusters of [HT].
+///
+/// Departs from [HT] in what it marks: not boxes but the cells where the fields are not 0
+/// (MarkedCells.h), and in how it joins: exact cuts instead of filled gaps (Stitch.h).
+///
+/// \param parts whose fields add up to that of the blend: its children (node-based) or, through
+/// nested blends, all that is blended (primitive-based). \param method told in the report.
+TriangleMesh blendMesh(const Node& blend, const std::vector<BlendPart>& parts,
+  const BlendOptions& options, double edgeLength, BlendMeshReport& report,
+  const Progress& progress = Progress::none());
+
+/// What a local blend is made of.
+struct LocalBlendParts
+{
+  const Node* a;
+  const Node* b;
+  const Node* region;
+  const Node* unionOfBoth; ///< of A and B, which stands outside of the region
+};
+
+/// As blendMesh(), of a local blend ([HT] 5.2.3).
+TriangleMesh localBlendMesh(const Node& blend, const LocalBlendParts& parts,
+  const BlendOptions& options, double edgeLength, BlendMeshReport& report,
+  const Progress& progress = Progress::none());
+
+} // namespace hybridtree

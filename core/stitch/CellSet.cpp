@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/stitch/CellSet.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace hybridtree
+{
+namespace
+{
+
+std::uint64_t bitOf(std::int64_t x, std::int64_t y)
+{
+  return std::uint64_t(1) << (kBrickSide * y + x);
+}
+
+} // namespace
+
+Index3 brickOf(const Index3& index)
+{
+  Index3 brick{};
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    // Rounds down for negative ones too.
+    brick[axis] = index[axis] >= 0 ? index[axis] / kBrickSide : ~(~index[axis] / kBrickSide);
+  }
+  return brick;
+}
+
+int CellSet::lowestBit(std::uint64_t word)
+{
+  int bit = 0;
+  for (int step = 32; step > 0; step /= 2)
+  {
+    if ((word & ((std::uint64_t(1) << step) - 1)) == 0)
+    {
+      word >>= step;
+      bit += step;
+    }
+  }
+  return bit;
+}
+
+std::size_t CellSet::size() const
+{
+  std::size_t count = 0;
+  for (const Brick& brick : bricks_)
+  {
+    for (std::uint64_t word : brick.bits)
+    {
+      for (; word != 0; word &= word - 1)
+      {
+        ++count;
+      }
+    }
+  }
+  return count;
+}
+
+const BrickBits* CellSet::find(const Index3& brick) const
+{
+  const auto found = index_.find(brick);
+  return found == index_.end() ? nullptr : &bricks_[found->second].bits;
+}
+
+bool CellSet::contains(const Index3& cell) const
+{
+  const Index3 brick = brickOf(cell);
+  const BrickBits* bits = this->find(brick);
+  return bits &&
+    ((*bits)[cell[2] - kBrickSide * brick[2]] &
+      bitOf(cell[0] - kBrickSide * brick[0], cell[1] - kBrickSide * brick[1])) != 0;
+}
+
+BrickBits& CellSet::bitsOf(const Index3& brick)
+{
+  const auto [found, isNew] = index_.try_emplace(brick, bricks_.size());
+  if (isNew)
+  {
+    bricks_.push_back({ brick, {} });
+  }
+  return bricks_[found->second].bits;
+}
+
+void CellSet::insert(const Index3& cell)
+{
+  this->insertBlock(cell, 1);
+}
+
+void CellSet::insertBlock(const Index3& low, int side)
+{
+  const Index3 brick = brickOf(low);
+  BrickBits& bits = this->bitsOf(brick);
+  std::uint64_t word = 0;
+  for (int y = 0; y < side; ++y)
+  {
+    for (int x = 0; x < side; ++x)
+    {
+      word |= bitOf(low[0] - kBrickSide * brick[0] + x, low[1] - kBrickSide * brick[1] + y);
+    }
+  }
+  for (int z = 0; z < side; ++z)
+  {
+    bits[low[2] - kBrickSide * brick[2] + z] |= word;
+  }
+}
+
+void CellSet::insert(const CellSet& other)
+{
+  for (const Brick& brick : other.bricks_)
+  {
+    BrickBits& bits = this->bitsOf(brick.index);
+    for (int z = 0; z < kBrickSide; ++z)
+    {
+      bits[z] |= brick.bits[z];
+    }
+  }
+}
+
+void CellSet::sort()
+{
+  std::sort(bricks_.begin(), bricks_.end(),
+    [](const Brick& a, const Brick& b)
+    {
+      return std::lexicographical_compare(
+        a.index.rbegin(), a.index.rend(), b.index.rbegin(), b.index.rend());
+    });
+  for (std::size_t k = 0; k < bricks_.size(); ++k)
+  {
+    index_[bricks_[k].index] = k;
+  }
+}
+
+Index3 CellSet::low() const
+{
+  Index3 low = bricks_.front().index;
+  for (const Brick& brick : bricks_)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      low[axis] = std::min(low[axis], brick.index[axis]);
+    }
+  }
+  return { kBrickSide * low[0], kBrickSide * low[1], kBrickSide * low[2] };
+}
+
+Index3 CellSet::high() const
+{
+  Index3 high = bricks_.front().index;
+  for (const Brick& brick : bricks_)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      high[axis] = std::max(high[axis], brick.index[axis]);
+    }
+  }
+  constexpr int kLast = kBrickSide - 1;
+  return { kBrickSide * high[0] + kLast, kBrickSide * high[1] + kLast,
+    kBrickSide * high[2] + kLast };
+}
+
+CellSet::Share CellSet::shareOf(const Index3& low, const Index3& high) const
+{
+  bool some = false;
+  bool all = true;
+  const Index3 first = brickOf(low);
+  const Index3 last = brickOf(high);
+  for (std::int64_t bz = first[2]; bz <= last[2]; ++bz)
+  {
+    for (std::int64_t by = first[1]; by <= last[1]; ++by)
+    {
+      for (std::int64_t bx = first[0]; bx <= last[0]; ++bx)
+      {
+        const BrickBits* bits = this->find({ bx, by, bz });
+        if (!bits)
+        {
+          all = false;
+          continue;
+        }
+        const auto from = [&](int axis, std::int64_t brick)
+        { return std::max<std::int64_t>(low[axis] - kBrickSide * brick, 0); };
+        const auto to = [&](int axis, std::int64_t brick)
+        { return std::min<std::int64_t>(high[axis] - kBrickSide * brick, kBrickSide - 1); };
+        std::uint64_t mask = 0;
+        for (std::int64_t y = from(1, by); y <= to(1, by); ++y)
+        {
+          for (std::int64_t x = from(0, bx); x <= to(0, bx); ++x)
+          {
+            mask |= bitOf(x, y);
+          }
+        }
+        for (std::int64_t z = from(2, bz); z <= to(2, bz); ++z)
+        {
+          some = some || ((*bits)[z] & mask) != 0;
+          all = all && ((*bits)[z] & mask) == mask;
+        }
+      }
+    }
+    if (some && !all)
+    {
+      return Share::Some;
+    }
+  }
+  return !some ? Share::None : all ? Share::All : Share::Some;
+}
+
+CellSet CellSet::grown() const
+{
+  CellSet result = *this;
+  this->forEach(
+    [&](const Index3& cell)
+    {
+      for (int n = 0; n < 27; ++n)
+      {
+        result.insert({ cell[0] + n % 3 - 1, cell[1] + n / 3 % 3 - 1, cell[2] + n / 9 - 1 });
+      }
+    });
+  result.sort();
+  return result;
+}
+
+void CellSet::fillDiagonals()
+{
+  std::vector<Index3> added;
+  do
+  {
+    added.clear();
+    this->forEach(
+      [&](const Index3& cell)
+      {
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          const int u = (axis + 1) % 3;
+          const int v = (axis + 2) % 3;
+          for (const int step : { -1, 1 }) // the other two diagonals are seen from the other cell
+          {
+            Index3 across = cell;
+            across[u] += 1;
+            across[v] += step;
+            Index3 first = cell;
+            first[u] += 1;
+            Index3 second = cell;
+            second[v] += step;
+            if (this->contains(across) && !this->contains(first) && !this->contains(second))
+            {
+              added.push_back(first);
+            }
+          }
+        }
+      });
+    for (const Index3& cell : added)
+    {
+      this->insert(cell);
+    }
+  } while (!added.empty());
+  this->sort();
+}
+
+} // namespace hybridtree

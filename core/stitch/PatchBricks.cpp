@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/stitch/PatchBricks.h"
+
+#include "core/base/Parallel.h"
+#include "core/base/Scratch.h"
+#include "core/polygonize/EdgeRoots.h"
+
+#include <algorithm>
+
+namespace hybridtree
+{
+namespace
+{
+
+constexpr std::size_t kBricksPerTask = 1;
+constexpr int kHalo = kBrickSide + 2;
+
+/// Marks of the cells of a brick and of those one cell around it: bit x + 1 of row (y + 1, z + 1).
+struct Halo
+{
+  std::uint16_t rows[kHalo][kHalo] = {};
+};
+
+Halo gather(const PatchBrick& brick, const std::vector<PatchBrick>& bricks)
+{
+  Halo halo;
+  for (int z = -1; z <= kBrickSide; ++z)
+  {
+    for (int y = -1; y <= kBrickSide; ++y)
+    {
+      const int nz = (z + kBrickSide) / kBrickSide;
+      const int ny = (y + kBrickSide) / kBrickSide;
+      const auto row = [&](int nx) -> unsigned
+      {
+        const std::int32_t near = brick.near[nx + 3 * (ny + 3 * nz)];
+        return near < 0 ? 0u
+                        : static_cast<unsigned>(bricks[near].cells[(z + kBrickSide) % kBrickSide] >>
+                              (kBrickSide * ((y + kBrickSide) % kBrickSide)) &
+                            0xffu);
+      };
+      halo.rows[z + 1][y + 1] =
+        static_cast<std::uint16_t>(row(0) >> (kBrickSide - 1) | row(1) << 1 | (row(2) & 1u) << 9);
+    }
+  }
+  return halo;
+}
+
+unsigned bitCount(std::uint64_t bits)
+{
+  unsigned count = 0;
+  for (; bits != 0; bits &= bits - 1)
+  {
+    ++count;
+  }
+  return count;
+}
+
+} // namespace
+
+std::int32_t PatchBrick::vertexOn(unsigned axis, int x, int y, int z) const
+{
+  const std::uint64_t before = (std::uint64_t(1) << (kBrickSide * y + x)) - 1;
+  return firstVertex + rank[axis][z] +
+    static_cast<std::int32_t>(bitCount(crossed[axis][z] & before));
+}
+
+void PatchBrick::countVertices()
+{
+  vertexCount = 0;
+  for (unsigned axis = 0; axis < 3; ++axis)
+  {
+    for (int z = 0; z < kBrickSide; ++z)
+    {
+      rank[axis][z] = static_cast<std::uint16_t>(vertexCount);
+      vertexCount += static_cast<std::int32_t>(bitCount(crossed[axis][z]));
+    }
+  }
+}
+
+PatchBricks::PatchBricks(
+  const FieldSource& field, const CellSet& cells, const Lattice& lattice, const Progress& progress)
+{
+  this->addBricks(cells);
+  parallelFor(bricks_.size(), kBricksPerTask,
+    [&](std::size_t begin, std::size_t end)
+    {
+      progress.check();
+      for (std::size_t k = begin; k < end; ++k)
+      {
+        this->findBits(bricks_[k]);
+        this->sample(bricks_[k], field, lattice);
+      }
+    });
+}
+
+/// Corners of a cell lie in its brick and those after it.
+void PatchBricks::addBricks(const CellSet& cells)
+{
+  CellSet all = cells;
+  for (const CellSet::Brick& brick : cells.bricks())
+  {
+    for (int n = 1; n < 8; ++n)
+    {
+      const Index3 next{ brick.index[0] + (n & 1), brick.index[1] + (n >> 1 & 1),
+        brick.index[2] + (n >> 2 & 1) };
+      all.insertBlock({ kBrickSide * next[0], kBrickSide * next[1], kBrickSide * next[2] }, 0);
+    }
+  }
+  all.sort();
+  bricks_.resize(all.bricks().size());
+  for (std::size_t k = 0; k < bricks_.size(); ++k)
+  {
+    bricks_[k].index = all.bricks()[k].index;
+    bricks_[k].cells = all.bricks()[k].bits;
+    index_[bricks_[k].index] = static_cast<std::int32_t>(k);
+  }
+  for (PatchBrick& brick : bricks_)
+  {
+    for (int n = 0; n < 27; ++n)
+    {
+      const auto found = index_.find(
+        { brick.index[0] + n % 3 - 1, brick.index[1] + n / 3 % 3 - 1, brick.index[2] + n / 9 - 1 });
+      brick.near[n] = found == index_.end() ? -1 : found->second;
+    }
+  }
+}
+
+void PatchBricks::findBits(PatchBrick& brick) const
+{
+  const Halo halo = gather(brick, bricks_);
+  for (int z = 0; z < kBrickSide; ++z)
+  {
+    for (int y = 0; y < kBrickSide; ++y)
+    {
+      // Cells (x, ...) in bit x + 1, and those before along x brought there too.
+      const unsigned r[4] = { halo.rows[z][y], halo.rows[z][y + 1], halo.rows[z + 1][y],
+        halo.rows[z + 1][y + 1] };
+      const auto put = [y](std::uint64_t& word, unsigned row)
+      { word |= std::uint64_t(row >> 1 & 0xffu) << (kBrickSide * y); };
+      const unsigned any = r[0] | r[1] | r[2] | r[3];
+      const unsigned all = r[0] & r[1] & r[2] & r[3];
+      const unsigned points = any | any << 1;
+      put(brick.points[z], points);
+      put(brick.border[z], points & ~(all & all << 1));
+      put(brick.edges[0][z], any);
+      put(brick.inner[0][z], all);
+      const unsigned anyY = r[1] | r[3];
+      const unsigned allY = r[1] & r[3];
+      put(brick.edges[1][z], anyY | anyY << 1);
+      put(brick.inner[1][z], allY & allY << 1);
+      const unsigned anyZ = r[2] | r[3];
+      const unsigned allZ = r[2] & r[3];
+      put(brick.edges[2][z], anyZ | anyZ << 1);
+      put(brick.inner[2][z], allZ & allZ << 1);
+    }
+  }
+}
+
+void PatchBricks::sample(PatchBrick& brick, const FieldSource& field, const Lattice& lattice) const
+{
+  std::vector<int> chosen;
+  for (int n = 0; n < kBrickPoints; ++n)
+  {
+    if ((brick.points[n / 64] >> (n % 64) & 1u) != 0)
+    {
+      chosen.push_back(n);
+    }
+  }
+  if (chosen.empty())
+  {
+    return;
+  }
+  const Index3 first{ kBrickSide * brick.index[0], kBrickSide * brick.index[1],
+    kBrickSide * brick.index[2] };
+  const Box3 box(lattice.point(first),
+    lattice.point({ first[0] + kBrickSide, first[1] + kBrickSide, first[2] + kBrickSide }));
+  brick.source = field.restrictedTo(box);
+  brick.values.assign(kBrickPoints, static_cast<float>(-kThreshold));
+  if (!brick.source)
+  {
+    return;
+  }
+  ScratchVectors points(chosen.size());
+  ScratchArray values(chosen.size());
+  for (std::size_t k = 0; k < chosen.size(); ++k)
+  {
+    const int n = chosen[k];
+    points.batch().set(k,
+      lattice.point({ first[0] + n % kBrickSide, first[1] + n / kBrickSide % kBrickSide,
+        first[2] + n / (kBrickSide * kBrickSide) }));
+  }
+  brick.source->field(points.points(), values.data());
+  for (std::size_t k = 0; k < chosen.size(); ++k)
+  {
+    const double value = values[k] - kThreshold;
+    const int n = chosen[k];
+    brick.values[n] = static_cast<float>(value);
+    brick.inside[n / 64] |= std::uint64_t(isInside(value)) << (n % 64);
+  }
+}
+
+PatchBricks::Place PatchBricks::locate(const PatchBrick& brick, int x, int y, int z)
+{
+  const int n = (x + kBrickSide) / kBrickSide + 3 * ((y + kBrickSide) / kBrickSide) +
+    9 * ((z + kBrickSide) / kBrickSide);
+  const std::int32_t near = brick.near[n];
+  return { near < 0 ? nullptr : &bricks_[near], (x + kBrickSide) % kBrickSide,
+    (y + kBrickSide) % kBrickSide, (z + kBrickSide) % kBrickSide };
+}
+
+PatchBricks::Place PatchBricks::locate(const Index3& index)
+{
+  const Index3 brick = brickOf(index);
+  const auto found = index_.find(brick);
+  return { found == index_.end() ? nullptr : &bricks_[found->second],
+    static_cast<int>(index[0] - kBrickSide * brick[0]),
+    static_cast<int>(index[1] - kBrickSide * brick[1]),
+    static_cast<int>(index[2] - kBrickSide * brick[2]) };
+}
+
+} // namespace hybridtree

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "core/base/Progress.h"
+#include "core/polygonize/FieldSource.h"
+#include "core/stitch/CellSet.h"
+
+namespace hybridtree
+{
+
+/// What is known of the lattice points, edges and cells of one brick that belong to marked cells.
+struct PatchBrick
+{
+  Index3 index{};
+  BrickBits cells{};  ///< marked
+  BrickBits points{}; ///< corners of marked cells, which may be those of other bricks
+  BrickBits border{}; ///< of these, those that are also corners of cells that are not marked
+  BrickBits inside{}; ///< sides of the points
+  std::array<BrickBits, 3> edges{};   ///< [axis]: from a point, an edge of a marked cell
+  std::array<BrickBits, 3> inner{};   ///< of these, those all of whose four cells are marked
+  std::array<BrickBits, 3> crossed{}; ///< of the inner ones, those that have a vertex
+  std::array<std::int32_t, 27>
+    near{};                  ///< number of the brick at offset (n % 3, n / 3 % 3, n / 9) - 1
+  std::vector<float> values; ///< f - T at the points, where it was sampled
+  FieldSourcePtr source;     ///< valid in the closed box of the brick's cells
+  std::array<std::array<std::uint16_t, kBrickSide>, 3> rank{};
+  std::int32_t firstVertex = 0;
+  std::int32_t vertexCount = 0;
+
+  static bool has(const BrickBits& bits, int x, int y, int z)
+  {
+    return (bits[z] >> (kBrickSide * y + x) & 1u) != 0;
+  }
+  /// Number of the vertex on a crossed edge.
+  std::int32_t vertexOn(unsigned axis, int x, int y, int z) const;
+  void countVertices();
+};
+
+/// All bricks with corners of marked cells, sorted, and the field at these corners.
+class PatchBricks
+{
+public:
+  /// Samples the field, brick by brick in parallel. field must live as long as this.
+  PatchBricks(const FieldSource& field, const CellSet& cells, const Lattice& lattice,
+    const Progress& progress);
+
+  std::vector<PatchBrick>& all() { return bricks_; }
+  const std::vector<PatchBrick>& all() const { return bricks_; }
+
+  /// A lattice point or cell, by its brick and its place in it. brick is null where there is none.
+  struct Place
+  {
+    PatchBrick* brick = nullptr;
+    int x = 0, y = 0, z = 0;
+  };
+  /// \param x, y, z relative to a brick, from -8 to 15.
+  Place locate(const PatchBrick& brick, int x, int y, int z);
+  Place locate(const Index3& index);
+
+private:
+  void addBricks(const CellSet& cells);
+  void findBits(PatchBrick& brick) const;
+  void sample(PatchBrick& brick, const FieldSource& field, const Lattice& lattice) const;
+
+  std::vector<PatchBrick> bricks_;
+  std::unordered_map<Index3, std::int32_t, Index3Hash> index_;
+};
+
+} // namespace hybridtree

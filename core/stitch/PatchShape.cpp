@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/stitch/PatchShape.h"
+
+#include "core/mesh/MeshLinks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+namespace hybridtree
+{
+namespace
+{
+
+using Index = MeshLinks::Index;
+
+constexpr int kMaxRounds = 8;
+constexpr double kBadShape = 0.9397; // cosine of 20 degrees
+constexpr double kSliver = 0.9998;   // cosine of a smallest angle whose normal means nothing
+constexpr double kWorthIt = 0.002;   // gain in that cosine
+constexpr double kMostOff = 0.05;    // cells, between old and new surface
+constexpr double kLargestTurn = 0.8; // cosine, of a triangle's normal
+constexpr double kFlatEnough = 0.94; // cosine of the angle across an edge that may be flipped
+constexpr double kLongestSide = 1.6; // cells, of a triangle that had shorter ones
+
+/// Cosine of the smallest angle: 0.5 at best, 1 without area.
+double shapeOf(const Vec3& a, const Vec3& b, const Vec3& c)
+{
+  double squared[3] = { (b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm() };
+  std::sort(squared, squared + 3);
+  const double scale = 2.0 * std::sqrt(squared[1]) * std::sqrt(squared[2]);
+  return scale > 0.0 ? (squared[1] + squared[2] - squared[0]) / scale : 1.0;
+}
+
+Vec3 normalOf(const Vec3& a, const Vec3& b, const Vec3& c)
+{
+  return (b - a).cross(c - a);
+}
+
+class ShapeImprover
+{
+public:
+  ShapeImprover(StitchedMesh& stitched, std::size_t firstOwn, double cellSize)
+    : mesh_(stitched.mesh)
+    , first_(stitched.keptTriangles)
+    , firstOwn_(static_cast<Index>(firstOwn))
+    , cellSize_(cellSize)
+    , triangles_(this->gather())
+    , links_(triangles_, points_.size())
+    , touched_(links_.triangleCount(), false)
+  {
+  }
+
+  void run()
+  {
+    for (int round = 0; round < kMaxRounds; ++round)
+    {
+      bool any = false;
+      for (std::size_t t = 0; t < links_.triangleCount(); ++t)
+      {
+        any = (!links_.isRemoved(t) && this->shape(t) > kBadShape && this->mend(t)) || any;
+      }
+      if (!any)
+      {
+        break;
+      }
+    }
+    this->giveBack();
+  }
+
+private:
+  /// The new triangles with points of their own numbering.
+  std::vector<Triangle> gather()
+  {
+    std::unordered_map<Index, Index> number;
+    std::vector<Triangle> triangles(
+      mesh_.triangles.begin() + static_cast<std::ptrdiff_t>(first_), mesh_.triangles.end());
+    for (Triangle& triangle : triangles)
+    {
+      for (Index& v : triangle)
+      {
+        const auto [found, isNew] = number.try_emplace(v, static_cast<Index>(points_.size()));
+        if (isNew)
+        {
+          points_.push_back(v);
+        }
+        v = found->second;
+      }
+    }
+    return triangles;
+  }
+
+  const Vec3& point(Index v) const { return mesh_.points[points_[v]]; }
+  bool isOwn(Index v) const { return points_[v] >= firstOwn_; }
+
+  double shape(std::size_t t) const
+  {
+    const Triangle& c = links_.triangle(t);
+    return shapeOf(this->point(c[0]), this->point(c[1]), this->point(c[2]));
+  }
+  Vec3 normal(std::size_t t) const
+  {
+    const Triangle& c = links_.triangle(t);
+    return normalOf(this->point(c[0]), this->point(c[1]), this->point(c[2]));
+  }
+  double length(Index h) const
+  {
+    return (this->point(links_.from(h)) - this->point(links_.to(h))).norm();
+  }
+
+  /// The best of all collapses and flips of a triangle's sides.
+  bool mend(std::size_t t)
+  {
+    double best = kWorthIt;
+    Index chosen = MeshLinks::kNone;
+    bool flip = false;
+    for (auto h = static_cast<Index>(3 * t); h < static_cast<Index>(3 * t + 3); ++h)
+    {
+      const Index twin = links_.twin(h);
+      if (twin == MeshLinks::kNone)
+      {
+        continue;
+      }
+      for (const Index way : { h, twin })
+      {
+        const double gain = this->gainOfCollapse(way);
+        if (gain > best && links_.canCollapse(way))
+        {
+          best = gain;
+          chosen = way;
+          flip = false;
+        }
+      }
+      const double gain = this->gainOfFlip(h, twin);
+      if (gain > best && links_.canFlip(h))
+      {
+        best = gain;
+        chosen = h;
+        flip = true;
+      }
+    }
+    if (chosen == MeshLinks::kNone)
+    {
+      return false;
+    }
+    if (flip)
+    {
+      touched_[chosen / 3] = true;
+      touched_[links_.twin(chosen) / 3] = true;
+      links_.flip(chosen);
+      return true;
+    }
+    links_.forEachLeaving(
+      links_.from(chosen), [&](Index leaving) { touched_[leaving / 3] = true; });
+    links_.collapse(chosen);
+    return true;
+  }
+
+  /// By how much the worst shape around the start of h gets better; 0 or less when it may not go.
+  double gainOfCollapse(Index h) const
+  {
+    const Index from = links_.from(h);
+    const Index to = links_.to(h);
+    if (!this->isOwn(from) || links_.isLocked(from) || this->length(h) > 0.7 * cellSize_)
+    {
+      return 0.0;
+    }
+    const Vec3& target = this->point(to);
+    double before = 0.0;
+    double after = 0.0;
+    double longest = 0.0;
+    bool allowed = true;
+    links_.forEachLeaving(from,
+      [&](Index leaving)
+      {
+        longest = std::max(longest, this->length(leaving));
+        before = std::max(before, this->shape(static_cast<std::size_t>(leaving / 3)));
+      });
+    const double limit = std::max(kLongestSide * cellSize_, longest);
+    links_.forEachLeaving(from,
+      [&](Index leaving)
+      {
+        const auto t = static_cast<std::size_t>(leaving / 3);
+        const Index b = links_.to(leaving);
+        const Index c = links_.opposite(leaving);
+        const Vec3 old = this->normal(t);
+        const double size = old.norm();
+        const bool solid = this->shape(t) < kSliver && size > 0.0;
+        if (solid && std::abs(old.dot(target - this->point(b))) > kMostOff * cellSize_ * size)
+        {
+          allowed = false;
+        }
+        if (b == to || c == to)
+        {
+          return;
+        }
+        const Vec3 turned = normalOf(target, this->point(b), this->point(c));
+        const Vec3 reference = solid ? old : this->meanNormal(b, c, to);
+        const double cosine = solid ? kLargestTurn : 0.3;
+        allowed = allowed && turned.dot(reference) > cosine * turned.norm() * reference.norm() &&
+          (this->point(b) - target).norm() <= limit;
+        after = std::max(after, shapeOf(target, this->point(b), this->point(c)));
+      });
+    return allowed ? before - after : 0.0;
+  }
+
+  Vec3 meanNormal(Index a, Index b, Index c) const
+  {
+    return mesh_.normals[points_[a]] + mesh_.normals[points_[b]] + mesh_.normals[points_[c]];
+  }
+
+  double gainOfFlip(Index h, Index twin) const
+  {
+    const Index ia = links_.from(h);
+    const Index ib = links_.to(h);
+    const Index ic = links_.opposite(h);
+    const Index id = links_.opposite(twin);
+    const Vec3& a = this->point(ia);
+    const Vec3& b = this->point(ib);
+    const Vec3& c = this->point(ic);
+    const Vec3& d = this->point(id);
+    const double before = std::max(shapeOf(a, b, c), shapeOf(b, a, d));
+    const double after = std::max(shapeOf(d, b, c), shapeOf(c, a, d));
+    if ((c - d).norm() > std::max(kLongestSide * cellSize_, (a - b).norm()))
+    {
+      return 0.0;
+    }
+    const Vec3 first = normalOf(a, b, c);
+    const Vec3 second = normalOf(b, a, d);
+    const bool solid = shapeOf(a, b, c) < kSliver && shapeOf(b, a, d) < kSliver;
+    if (solid && first.dot(second) < kFlatEnough * first.norm() * second.norm())
+    {
+      return 0.0;
+    }
+    const Vec3 both =
+      solid ? Vec3(first + second) : Vec3(first.norm() > second.norm() ? first : second);
+    const auto agrees = [&](const Vec3& made)
+    { return made.dot(both) > kLargestTurn * made.norm() * both.norm(); };
+    // What the edge was on one side of, it must stay near to.
+    const bool near = std::abs(both.dot(c - a)) <= kMostOff * cellSize_ * both.norm() &&
+      std::abs(both.dot(d - a)) <= kMostOff * cellSize_ * both.norm();
+    return near && agrees(normalOf(d, b, c)) && agrees(normalOf(c, a, d)) ? before - after : 0.0;
+  }
+
+  /// Leaves out what was removed, and keeps the order of the rest.
+  void giveBack()
+  {
+    std::vector<Index> number(mesh_.points.size() - static_cast<std::size_t>(firstOwn_), -1);
+    std::size_t kept = first_;
+    for (std::size_t t = 0; t < links_.triangleCount(); ++t)
+    {
+      if (links_.isRemoved(t))
+      {
+        continue;
+      }
+      const Triangle& c = links_.triangle(t);
+      mesh_.triangles[kept] = { points_[c[0]], points_[c[1]], points_[c[2]] };
+      mesh_.sourceLeaf[kept] = mesh_.sourceLeaf[first_ + t];
+      if (!mesh_.sourceTriangle.empty())
+      {
+        mesh_.sourceTriangle[kept] = touched_[t] ? -1 : mesh_.sourceTriangle[first_ + t];
+      }
+      for (const Index v : mesh_.triangles[kept])
+      {
+        if (v >= firstOwn_)
+        {
+          number[v - firstOwn_] = 0;
+        }
+      }
+      ++kept;
+    }
+    mesh_.triangles.resize(kept);
+    mesh_.sourceLeaf.resize(kept);
+    mesh_.sourceTriangle.resize(mesh_.sourceTriangle.empty() ? 0 : kept);
+    auto next = static_cast<std::size_t>(firstOwn_);
+    for (std::size_t k = 0; k < number.size(); ++k)
+    {
+      if (number[k] < 0)
+      {
+        continue;
+      }
+      const auto from = static_cast<std::size_t>(firstOwn_) + k;
+      mesh_.points[next] = mesh_.points[from];
+      mesh_.normals[next] = mesh_.normals[from];
+      if (!mesh_.vertexOrigin.empty())
+      {
+        mesh_.vertexOrigin[next] = mesh_.vertexOrigin[from];
+      }
+      number[k] = static_cast<Index>(next++);
+    }
+    mesh_.points.resize(next);
+    mesh_.normals.resize(next);
+    mesh_.vertexOrigin.resize(mesh_.vertexOrigin.empty() ? 0 : next);
+    for (std::size_t t = first_; t < kept; ++t)
+    {
+      for (Index& v : mesh_.triangles[t])
+      {
+        v = v >= firstOwn_ ? number[v - firstOwn_] : v;
+      }
+    }
+  }
+
+  TriangleMesh& mesh_;
+  const std::size_t first_;
+  const Index firstOwn_;
+  const double cellSize_;
+  std::vector<Index> points_;             ///< of the mesh, by number here
+  const std::vector<Triangle> triangles_; ///< as they were
+  MeshLinks links_;
+  std::vector<bool> touched_;
+};
+
+} // namespace
+
+void improveShapes(StitchedMesh& stitched, std::size_t firstOwn, double cellSize)
+{
+  if (stitched.keptTriangles < stitched.mesh.triangles.size())
+  {
+    ShapeImprover(stitched, firstOwn, cellSize).run();
+  }
+}
+
+} // namespace hybridtree

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/stitch/ProjectPoints.h"
+
+#include "core/base/Parallel.h"
+#include "core/base/Scratch.h"
+
+#include <cmath>
+
+namespace hybridtree
+{
+namespace
+{
+
+constexpr std::size_t kPointsPerTask = 256;
+constexpr int kNewtonSteps = 3;
+constexpr double kSettled = 2e-4;    // of the reach: a residual step below this is the last
+constexpr double kSearchReach = 2.0; // that of Newton steps, for the search along the normal
+constexpr int kProbes = 8;           // to each side
+constexpr int kBisections = 16;
+
+/// The nearest change of side along the normal, or else along the axes.
+class NormalSearch
+{
+public:
+  NormalSearch(const FieldSource& field, double reach, TriangleMesh& mesh)
+    : field_(field), reach_(reach), mesh_(mesh)
+  {
+  }
+
+  void run(std::size_t point)
+  {
+    const Vec3 start = mesh_.points[point];
+    const bool inside = this->isInside(start);
+    // The solid lies against the normal: from inside, the surface is ahead.
+    const Vec3 ahead = mesh_.normals[point] * (inside ? 1.0 : -1.0);
+    std::vector<Vec3> ways{ ahead, -ahead };
+    if (this->search(point, start, ways, inside))
+    {
+      return;
+    }
+    ways.clear();
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      ways.push_back(Vec3::Unit(axis));
+      ways.push_back(-Vec3::Unit(axis));
+    }
+    this->search(point, start, ways, inside);
+  }
+
+private:
+  bool search(
+    std::size_t point, const Vec3& start, const std::vector<Vec3>& ways, bool inside) const
+  {
+    for (int probe = 1; probe <= kProbes; ++probe)
+    {
+      const double step = reach_ * probe / kProbes;
+      for (const Vec3& way : ways)
+      {
+        if (this->isInside(start + step * way) != inside)
+        {
+          mesh_.points[point] = start + this->bisect(start, way, step, inside) * way;
+          return true;
+        }
+      }
+    }
+    return false;
+  }
+
+  bool isInside(const Vec3& p) const
+  {
+    double value = 0.0;
+    field_.field({ &p.x(), &p.y(), &p.z(), 1 }, &value);
+    return value >= kThreshold;
+  }
+
+  double bisect(const Vec3& start, const Vec3& direction, double beyond, bool inside) const
+  {
+    double before = 0.0;
+    for (int k = 0; k < kBisections; ++k)
+    {
+      const double middle = 0.5 * (before + beyond);
+      (this->isInside(start + middle * direction) == inside ? before : beyond) = middle;
+    }
+    return 0.5 * (before + beyond);
+  }
+
+  const FieldSource& field_;
+  const double reach_;
+  TriangleMesh& mesh_;
+};
+
+/// \return the points that did not settle.
+std::vector<std::size_t> newton(const FieldSource& field, const std::size_t* begin,
+  std::size_t count, double reach, TriangleMesh& mesh)
+{
+  ScratchVectors points(count), gradients(count);
+  ScratchArray values(count);
+  std::vector<std::size_t> left;
+  for (std::size_t k = 0; k < count; ++k)
+  {
+    points.batch().set(k, mesh.points[begin[k]]);
+  }
+  for (int step = 0; step <= kNewtonSteps; ++step)
+  {
+    field.fieldAndGradient(points.points(), values.data(), gradients.batch());
+    for (std::size_t k = 0; k < count; ++k)
+    {
+      const Vec3 gradient = gradients.points()[k];
+      const double squared = gradient.squaredNorm();
+      const Vec3 at = points.points()[k];
+      const Vec3 move = gradient * ((kThreshold - values[k]) / squared);
+      const bool known = squared * reach * reach > 1e-20;
+      if (step < kNewtonSteps)
+      {
+        const bool near = known && (at + move - mesh.points[begin[k]]).norm() <= reach;
+        points.batch().set(k, near ? Vec3(at + move) : at);
+        continue;
+      }
+      if (!known || !(move.norm() <= kSettled * reach))
+      {
+        left.push_back(begin[k]);
+        continue;
+      }
+      mesh.points[begin[k]] = at;
+      mesh.normals[begin[k]] = gradient / -std::sqrt(squared);
+    }
+  }
+  return left;
+}
+
+} // namespace
+
+void projectPoints(const FieldSource& field, const std::vector<std::size_t>& points, double reach,
+  TriangleMesh& mesh)
+{
+  parallelFor(points.size(), kPointsPerTask,
+    [&](std::size_t begin, std::size_t end)
+    {
+      NormalSearch search(field, kSearchReach * reach, mesh);
+      for (const std::size_t point : newton(field, &points[begin], end - begin, reach, mesh))
+      {
+        search.run(point);
+      }
+    });
+}
+
+} // namespace hybridtree

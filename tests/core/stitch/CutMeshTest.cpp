@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/stitch/CutMesh.h"
+
+#include "tests/support/Random.h"
+#include "tests/support/TestMeshes.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <set>
+
+namespace hybridtree::test
+{
+namespace
+{
+
+CellSet randomCells(Random& random, int reach, double share)
+{
+  CellSet cells;
+  for (int z = -reach; z < reach; ++z)
+  {
+    for (int y = -reach; y < reach; ++y)
+    {
+      for (int x = -reach; x < reach; ++x)
+      {
+        if (random.chance(share))
+        {
+          cells.insert({ x, y, z });
+        }
+      }
+    }
+  }
+  cells.fillDiagonals();
+  return cells;
+}
+
+Vec3 pointOf(const TriangleMesh& mesh, const CutMesh& cut, std::int32_t v)
+{
+  const auto points = static_cast<std::int32_t>(mesh.points.size());
+  return v < points ? mesh.points[v] : cut.vertices[v - points].point;
+}
+
+/// Sum over triangles of p x area vector: as a volume, by which two surfaces can be told apart.
+Vec3 areaVector(const Vec3& a, const Vec3& b, const Vec3& c)
+{
+  return 0.5 * (b - a).cross(c - a);
+}
+
+struct CutCase
+{
+  const char* name;
+  TriangleMesh mesh;
+  double cellSize;
+};
+
+std::vector<CutCase> cutCases()
+{
+  return { { "coarse sphere", icosphere(0.9, 1), 0.11 }, { "fine sphere", icosphere(0.9, 4), 0.3 },
+    { "torus", torus(0.6, 0.25, 40, 20), 0.13 },
+    // All of its faces in planes of the lattice, and corners on lattice points.
+    { "box on the lattice", box(Vec3(-0.5, -0.5, -0.5), Vec3(0.5, 0.5, 0.5)), 0.125 },
+    { "box", box(Vec3(-0.51, -0.62, -0.43), Vec3(0.57, 0.51, 0.7)), 0.125 } };
+}
+
+// Every side of the pieces has its opposite among the pieces and the kept triangles, or runs
+// against a segment of the border; and those close to loops.
+TEST(CutMesh, LeavesNoCrackAndNoTJunction)
+{
+  Random random(1);
+  for (const CutCase& example : cutCases())
+  {
+    for (const double share : { 0.02, 0.3, 0.5, 0.9 })
+    {
+      const CellSet cells = randomCells(random, 9, share);
+      const CutMesh cut = cutMesh(example.mesh, cells, CellGrid::ofLevel(example.cellSize, 2));
+      std::map<std::pair<std::int32_t, std::int32_t>, int> sides;
+      const auto add = [&](const Triangle& c)
+      {
+        for (int k = 0; k < 3; ++k)
+        {
+          ++sides[{ c[k], c[(k + 1) % 3] }];
+        }
+      };
+      for (const std::int32_t t : cut.kept)
+      {
+        add(example.mesh.triangles[t]);
+      }
+      for (const Triangle& piece : cut.pieces)
+      {
+        add(piece);
+      }
+      std::map<std::int32_t, int> ends;
+      for (const BorderSegment& segment : cut.segments)
+      {
+        EXPECT_TRUE(cells.contains(segment.cell));
+        ++sides[{ segment.from, segment.to }];
+        ++ends[segment.from];
+        --ends[segment.to];
+      }
+      for (const auto& [side, count] : sides)
+      {
+        ASSERT_EQ(count, 1) << example.name << " " << share;
+        const auto opposite = sides.find({ side.second, side.first });
+        ASSERT_NE(opposite, sides.end()) << example.name << " " << share;
+      }
+      for (const auto& [vertex, sum] : ends)
+      {
+        ASSERT_EQ(sum, 0) << example.name << " vertex " << vertex;
+      }
+    }
+  }
+}
+
+// Triangles are taken whole where no cell is marked, and the pieces have the area of what is
+// outside.
+TEST(CutMesh, KeepsExactlyWhatIsOutside)
+{
+  Random random(2);
+  for (const CutCase& example : cutCases())
+  {
+    const CellSet cells = randomCells(random, 9, 0.4);
+    const CutMesh cut = cutMesh(example.mesh, cells, CellGrid::ofLevel(example.cellSize, 2));
+    const CellGrid grid = CellGrid::ofLevel(example.cellSize, 2);
+    const auto isMarked = [&](const Vec3& p) { return cells.contains(grid.cellAt(p)); };
+    const std::set<std::int32_t> kept(cut.kept.begin(), cut.kept.end());
+    EXPECT_EQ(kept.size(), cut.kept.size());
+    std::vector<double> outside(example.mesh.triangles.size(), 0.0);
+    for (std::size_t k = 0; k < cut.pieces.size(); ++k)
+    {
+      const Triangle& c = cut.pieces[k];
+      const Triangle& whole = example.mesh.triangles[cut.pieceOf[k]];
+      const Vec3 up = areaVector(example.mesh.points[whole[0]], example.mesh.points[whole[1]],
+        example.mesh.points[whole[2]]);
+      const Vec3 area = areaVector(pointOf(example.mesh, cut, c[0]),
+        pointOf(example.mesh, cut, c[1]), pointOf(example.mesh, cut, c[2]));
+      ASSERT_GE(area.dot(up), -1e-15) << example.name;
+      outside[cut.pieceOf[k]] += area.dot(up) / up.norm();
+    }
+    for (std::size_t t = 0; t < outside.size(); ++t)
+    {
+      const Triangle& c = example.mesh.triangles[t];
+      const Vec3& a = example.mesh.points[c[0]];
+      const Vec3 ab = example.mesh.points[c[1]] - a;
+      const Vec3 ac = example.mesh.points[c[2]] - a;
+      const double area = 0.5 * ab.cross(ac).norm();
+      constexpr int kSamples = 400;
+      int hits = 0;
+      for (int n = 0; n < kSamples; ++n)
+      {
+        double u = random.unit();
+        double v = random.unit();
+        if (u + v > 1.0)
+        {
+          u = 1.0 - u;
+          v = 1.0 - v;
+        }
+        hits += isMarked(a + u * ab + v * ac) ? 0 : 1;
+      }
+      if (kept.count(static_cast<std::int32_t>(t)) != 0)
+      {
+        EXPECT_EQ(outside[t], 0.0);
+        EXPECT_EQ(hits, kSamples);
+        continue;
+      }
+      // Five sigma of the samples.
+      EXPECT_NEAR(outside[t] / area, double(hits) / kSamples, 5.0 * 0.5 / 20.0) << example.name;
+    }
+  }
+}
+
+TEST(CutMesh, WithoutCellsAllIsKept)
+{
+  const TriangleMesh mesh = torus(0.6, 0.25, 12, 8);
+  const CutMesh cut = cutMesh(mesh, {}, { 0.1, Vec3::Zero() });
+  EXPECT_EQ(cut.kept.size(), mesh.triangles.size());
+  EXPECT_TRUE(cut.pieces.empty() && cut.segments.empty() && cut.vertices.empty());
+}
+
+} // namespace
+} // namespace hybridtree::test
