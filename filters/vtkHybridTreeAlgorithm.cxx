@@ -156,6 +156,10 @@ vtkHybridTreeAlgorithm::Operands vtkHybridTreeAlgorithm::ReadOperands(
   for (std::size_t port = 0; port < ports; ++port)
   {
     const int number = static_cast<int>(port);
+    if (!this->TakesNodes(number))
+    {
+      continue;
+    }
     const bool takesTree = this->GetInputPortInformation(number)->Get(TAKES_TREE()) != 0;
     std::vector<hybridtree::Operand>& connections = this->Internals->Inputs[port];
     connections.resize(static_cast<std::size_t>(inputs[port]->GetNumberOfInformationObjects()));
@@ -183,7 +187,8 @@ void vtkHybridTreeAlgorithm::UpdateNode(vtkInformationVector** inputs)
   State& state = *this->Internals;
   std::vector<std::string> warnings;
   Operands operands = this->ReadOperands(inputs, warnings);
-  if (!state.Node || state.NodeTime != this->GetMTime() || state.NodeOperands != operands)
+  const bool othersChanged = this->ReadOtherInputs(inputs);
+  if (othersChanged || !state.Node || state.NodeTime != this->GetMTime() || state.NodeOperands != operands)
   {
     state.Node = nullptr;
     state.Told.clear();
@@ -221,6 +226,18 @@ void vtkHybridTreeAlgorithm::WriteOutput(
   hybridtree::putNames(leaves, output->GetFieldData());
   hybridtree::putArrays(arrays, leaves, output->GetFieldData());
   vtkHybridTreeArray::PutTree(state.Node, output);
+}
+
+//------------------------------------------------------------------------------
+bool vtkHybridTreeAlgorithm::TakesNodes(int)
+{
+  return true;
+}
+
+//------------------------------------------------------------------------------
+bool vtkHybridTreeAlgorithm::ReadOtherInputs(vtkInformationVector**)
+{
+  return false;
 }
 
 //------------------------------------------------------------------------------

@@ -111,6 +111,18 @@ protected:
   virtual NodePtr MakeNode(const Operands& operands) = 0;
 
   /**
+   * False for an input port that takes data which are no node, such as curves. Operands have none of
+   * its connections; ReadOtherInputs() reads them.
+   */
+  virtual bool TakesNodes(int port);
+
+  /**
+   * Reads the ports that take no nodes. True when they hold something else than in the last run, so
+   * that the node has to be made again.
+   */
+  virtual bool ReadOtherInputs(vtkInformationVector** inputs);
+
+  /**
    * Fills the output ports from 1 on, once the node is there.
    */
   virtual void FillOtherOutputs(vtkInformationVector* outputs);

@@ -13,7 +13,9 @@
 #include "core/skeletons/Point.h"
 #include "core/skeletons/Polygon.h"
 #include "core/skeletons/Rectangle.h"
+#include "core/skeletons/Revolution.h"
 #include "core/skeletons/Segment.h"
+#include "core/skeletons/Spline.h"
 #include "core/skeletons/Triangle.h"
 
 namespace hybridtree
@@ -42,6 +44,8 @@ constexpr Maker kMakers[] = {
   { "triangle", &TriangleSkeleton::fromParameters },
   { "polygon", &PolygonSkeleton::fromParameters },
   { "ellipsoid", &EllipsoidSkeleton::fromParameters },
+  { "spline", &SplineSkeleton::fromParameters },
+  { "revolution", &RevolutionSkeleton::fromParameters },
 };
 
 } // namespace

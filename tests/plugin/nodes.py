@@ -58,6 +58,12 @@ def pipeline(folder):
     if "HybridTreeSurfaceReconstruction" in make:
         ball = simple.XMLPolyDataReader(FileName=[scans.convert("points_3/kitten.xyz", folder)])
         nodes["HybridTreeSurfaceReconstruction"] = make["HybridTreeSurfaceReconstruction"](Input=ball)
+    nodes["HybridTreeSpline"] = make["HybridTreeSpline"](
+        Points=[-0.4, 0, 0, 0, 0.3, 0, 0.3, 0, 0.2], SurfaceRadius=0.05, InfluenceRadius=0.15)
+    nodes["HybridTreeSurfaceOfRevolution"] = make["HybridTreeSurfaceOfRevolution"](
+        Points=[0.2, 0, -0.3, 0.3, 0, 0, 0.1, 0, 0.3], SurfaceRadius=0.05, InfluenceRadius=0.15)
+    nodes["HybridTreeCurveSkeletons"] = make["HybridTreeCurveSkeletons"](
+        Input=simple.PolyLineSource(Points=[0, 0, 0, 1, 0, 0, 1, 1, 0]))
     nodes["HybridTreeProbe"] = make["HybridTreeProbe"](Tree=nodes["HybridTreeBoolean"], Points=simple.Wavelet(
         WholeExtent=[-3, 3, -3, 3, -3, 3]))
     return nodes

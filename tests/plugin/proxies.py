@@ -31,6 +31,10 @@ NAMES = {
     "HybridTreeTriangle": FIELD | {"Point1", "Point2", "Point3"},
     "HybridTreePolygon": FIELD | {"Points"},
     "HybridTreeEllipsoid": FIELD | {"Center", "Radii", "Rotation"},
+    "HybridTreeSpline": FIELD | {"Points", "Kind", "Closed", "LevelOfDetail"},
+    "HybridTreeSurfaceOfRevolution": FIELD
+    | {"Points", "Kind", "Closed", "Origin", "Axis", "Solid", "LevelOfDetail"},
+    "HybridTreeCurveSkeletons": FIELD | {"Input", "RadiusArray", "As", "Blend", "LevelOfDetail"},
     "HybridTreeMeshField": (FIELD - {"SurfaceRadius"}) | {"Input"},
     "HybridTreeBlend": BLEND | {"Input"},
     "HybridTreeLocalBlend": BLEND | {"A", "B", "Region"},
@@ -83,6 +87,8 @@ def other_value(prop):
         return [1 - prop.GetElement(0)]
     if prop.GetRepeatCommand():
         return [0, 1, 1, 0.25, -0.5, 0.75]
+    if prop.IsA("vtkSMStringVectorProperty"):
+        return ["another"]
     step = 1 if prop.IsA("vtkSMIntVectorProperty") else 0.125
     return [prop.GetElement(k) + step * (k + 1) for k in range(prop.GetNumberOfElements())]
 

@@ -18,7 +18,9 @@
 #include "core/skeletons/HollowCylinder.h"
 #include "core/skeletons/Point.h"
 #include "core/skeletons/Rectangle.h"
+#include "core/skeletons/Revolution.h"
 #include "core/skeletons/Segment.h"
+#include "core/skeletons/Spline.h"
 #include "core/skeletons/Triangle.h"
 #include "tests/support/TestMeshes.h"
 
@@ -109,13 +111,24 @@ private:
 
   SkeletonPtr skeleton()
   {
-    switch (random_.integer(0, 6))
+    switch (random_.integer(0, 8))
     {
       case 4:
         return this->flatOrEllipsoid();
       case 5:
       case 6:
         return this->roundSkeleton();
+      case 7:
+        return std::make_shared<SplineSkeleton>(
+          SplineCurve{ { this->place(), this->place(), this->place(), this->place() }, {},
+            random_.chance(0.5) ? SplineKind::CatmullRom : SplineKind::BSpline,
+            random_.chance(0.3) });
+      case 8:
+        return std::make_shared<RevolutionSkeleton>(RevolutionShape{ this->place(),
+          random_.direction(),
+          { { Vec3(random_.uniform(0.1, 0.5), -0.4, 0.0), Vec3(random_.uniform(0.1, 0.5), 0.0, 0.0),
+            Vec3(random_.uniform(0.0, 0.4), 0.3, 0.0) } },
+          random_.chance(0.5) });
       case 0:
         return std::make_shared<PointSkeleton>(this->place());
       case 1:

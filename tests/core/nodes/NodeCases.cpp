@@ -19,7 +19,9 @@
 #include "core/skeletons/Point.h"
 #include "core/skeletons/Polygon.h"
 #include "core/skeletons/Rectangle.h"
+#include "core/skeletons/Revolution.h"
 #include "core/skeletons/Segment.h"
+#include "core/skeletons/Spline.h"
 #include "core/skeletons/Triangle.h"
 
 #include "tests/support/Random.h"
@@ -68,6 +70,33 @@ NodePtr block()
   return makePrimitive(
     std::make_shared<BoxSkeleton>(Vec3(0.0, 0.1, -0.1), Vec3(0.8, 0.5, 0.6), turned),
     potential(0.1, 0.4));
+}
+
+NodePtr tube()
+{
+  return makePrimitive(
+    std::make_shared<SplineSkeleton>(SplineCurve{
+      { Vec3(-0.6, -0.2, 0), Vec3(-0.2, 0.3, 0.1), Vec3(0.3, -0.2, -0.1), Vec3(0.6, 0.3, 0.2) }, {},
+      SplineKind::CatmullRom, false }),
+    potential(0.12, 0.3));
+}
+
+NodePtr tail()
+{
+  return makePrimitive(
+    std::make_shared<SplineSkeleton>(SplineCurve{
+      { Vec3(-0.6, 0.1, 0), Vec3(-0.2, 0.2, 0.1), Vec3(0.3, -0.1, 0), Vec3(0.5, -0.4, 0.2) },
+      { 0.15, 0.1, 0.03, 0.0 }, SplineKind::BSpline, false }),
+    potential(0.1, 0.3));
+}
+
+NodePtr vase(bool solid)
+{
+  return makePrimitive(
+    std::make_shared<RevolutionSkeleton>(RevolutionShape{ Vec3(0.1, 0, -0.1), Vec3(0.1, 0.2, 1),
+      { { Vec3(0.2, -0.5, 0), Vec3(0.4, -0.3, 0), Vec3(0.3, 0.1, 0), Vec3(0.25, 0.5, 0) } },
+      solid }),
+    potential(0.08, 0.25));
 }
 
 Affine3 shear()
@@ -281,6 +310,11 @@ std::vector<NodeCase> nodeCases()
   cases.push_back({ "Segment", capsule() });
   cases.push_back({ "Circle", ring() });
   cases.push_back({ "Box", block() });
+  cases.push_back({ "Spline", tube() });
+  cases.push_back({ "TaperedSpline", tail() });
+  cases.push_back({ "ShearedSpline", tube()->affine(shear()) });
+  cases.push_back({ "SheetOfRevolution", vase(false) });
+  cases.push_back({ "SolidOfRevolution", vase(true) });
   cases.push_back({ "ShearedPoint", ball(Vec3(0.1, 0.2, 0.3))->affine(shear()) });
   cases.push_back({ "ShearedSegment", capsule()->affine(shear()) });
   cases.push_back({ "ShearedCircle", ring()->affine(shear()) });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tests/core/skeletons/SkeletonCases.h"
 
+#include "core/skeletons/Meridian.h"
 #include "tests/core/skeletons/PlateCases.h"
 #include "tests/core/skeletons/RoundCases.h"
 
@@ -74,7 +75,114 @@ SkeletonCase boxCase(const Vec3& center, const Vec3& lengths, const Mat3& rotati
   return result;
 }
 
+SkeletonCase splineCase(SplineCurve curve)
+{
+  constexpr int kSamples = 400; // per span
+  std::vector<CubicSpan> spans;
+  splineSpans(curve, spans);
+  SkeletonCase result{ "spline", std::make_shared<SplineSkeleton>(curve), {}, 0.0, nullptr };
+  result.sharpRange = false;
+  for (const CubicSpan& span : spans)
+  {
+    Vec3 before = span.control[0].at;
+    for (int k = 0; k <= kSamples; ++k)
+    {
+      result.samples.push_back(span.at(double(k) / kSamples).at);
+      // A little more than half the chord, for the curve between.
+      result.cover = std::max(result.cover, 0.55 * (result.samples.back() - before).norm());
+      before = result.samples.back();
+    }
+  }
+  return result;
+}
+
+// A profile away from the axis, from bottom to top: polygons of it are simple.
+SplineCurve profileCurve(Random& random, SplineKind kind, bool toAxis)
+{
+  SplineCurve curve;
+  curve.kind = kind;
+  for (int k = 0; k < 5; ++k)
+  {
+    curve.points.emplace_back(random.uniform(0.3, 1.0), 0.4 * k - 0.8, 0.0);
+  }
+  if (toAxis)
+  {
+    curve.points.front().x() = 0.0;
+    curve.points.back().x() = 0.0;
+  }
+  return curve;
+}
+
+SkeletonCase revolutionCase(Random& random, const SplineCurve& profile, bool solid)
+{
+  constexpr int kAlong = 60; // per span
+  constexpr int kAround = 240;
+  const RevolutionShape shape{ random.direction(), random.direction(), profile, solid };
+  const bool corners = profile.kind == SplineKind::Polyline;
+  SkeletonCase result{ corners ? "revolution with corners" : "revolution",
+    std::make_shared<RevolutionSkeleton>(shape), {}, 0.0, nullptr };
+  result.sharpRange = false;
+  const Mat3 frame =
+    Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), shape.axis).toRotationMatrix();
+  std::vector<Vec2> polygon;
+  double gap = 0.0;
+  double widest = 0.0;
+  for (const CubicSpan& span : drawnProfile(shape))
+  {
+    for (int k = 0; k <= kAlong; ++k)
+    {
+      const Vec3 p = span.at(double(k) / kAlong).at;
+      if (k > 0)
+      {
+        gap = std::max(gap, (Vec2(p.x(), p.y()) - polygon.back()).norm());
+      }
+      polygon.emplace_back(p.x(), p.y());
+      widest = std::max(widest, p.x());
+      for (int turn = 0; turn < kAround; ++turn)
+      {
+        const double angle = 2.0 * EIGEN_PI * turn / kAround;
+        result.samples.push_back(
+          shape.origin + frame * Vec3(p.x() * std::cos(angle), p.x() * std::sin(angle), p.y()));
+      }
+    }
+  }
+  result.cover = std::hypot(0.55 * gap, EIGEN_PI * widest / kAround);
+  if (solid)
+  {
+    // Even-odd rule over the sampled outline.
+    result.inside = [polygon, shape](const Vec3& p)
+    {
+      const Vec3 local = p - shape.origin;
+      const double y = shape.axis.dot(local);
+      const double x = (local - y * shape.axis).norm();
+      bool inside = false;
+      for (std::size_t k = 0; k < polygon.size(); ++k)
+      {
+        const Vec2& a = polygon[k];
+        const Vec2& b = polygon[(k + 1) % polygon.size()];
+        if ((a.y() <= y) != (b.y() <= y) &&
+          x < a.x() + (y - a.y()) / (b.y() - a.y()) * (b.x() - a.x()))
+        {
+          inside = !inside;
+        }
+      }
+      return inside;
+    };
+  }
+  return result;
+}
+
 } // namespace
+
+std::vector<Vec3> randomWalk(Random& random, int count)
+{
+  std::vector<Vec3> points{ random.direction() };
+  while (points.size() < static_cast<std::size_t>(count))
+  {
+    points.push_back(points.back() + random.uniform(0.2, 0.8) * random.direction());
+  }
+  return points;
+}
 
 std::vector<SkeletonCase> skeletonCases()
 {
@@ -90,6 +198,23 @@ std::vector<SkeletonCase> skeletonCases()
       random.uniform(0.2, 2.0), random.uniform(0.2, 2.0), random.uniform(0.2, 2.0));
     cases.push_back(boxCase(random.direction(), lengths, random.rotation()));
   }
+  for (const SplineKind kind :
+    { SplineKind::CatmullRom, SplineKind::BSpline, SplineKind::Polyline })
+  {
+    for (const bool closed : { false, true })
+    {
+      cases.push_back(splineCase({ randomWalk(random, 4), {}, kind, closed }));
+      cases.push_back(splineCase({ randomWalk(random, 12), {}, kind, closed }));
+    }
+  }
+  for (const SplineKind kind : { SplineKind::CatmullRom, SplineKind::Polyline })
+  {
+    for (const bool solid : { false, true })
+    {
+      cases.push_back(revolutionCase(random, profileCurve(random, kind, false), solid));
+      cases.push_back(revolutionCase(random, profileCurve(random, kind, true), solid));
+    }
+  }
   const auto named = [&](SkeletonCase item, const char* name)
   {
     item.name = name;
@@ -97,6 +222,10 @@ std::vector<SkeletonCase> skeletonCases()
   };
   named(segmentCase(Vec3(1, 2, 3), Vec3(1, 2, 3)), "segment without length");
   named(circleCase(Vec3(1, 0, 0), Vec3(0, 1, 0), 0.0), "circle without radius");
+  named(splineCase({ { Vec3(1, 2, 3) }, {}, SplineKind::CatmullRom, true }), "spline of a point");
+  named(splineCase({ { Vec3(1, 2, 3), Vec3(1, 1, 3) }, {}, SplineKind::BSpline, true }),
+    "spline of two points");
+  named(splineCase({ randomWalk(random, 3), {}, SplineKind::BSpline, false }), "parabola");
   named(boxCase(Vec3(0, 1, 0), Vec3(1, 2, 0), random.rotation()), "rectangle");
   named(boxCase(Vec3(0, 1, 0), Vec3(1, 0, 0), random.rotation()), "box as segment");
   named(boxCase(Vec3(0, 1, 0), Vec3(0, 0, 0), random.rotation()), "box as point");

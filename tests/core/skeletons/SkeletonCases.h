@@ -9,7 +9,9 @@
 #include "core/skeletons/Disc.h"
 #include "core/skeletons/HollowCylinder.h"
 #include "core/skeletons/Point.h"
+#include "core/skeletons/Revolution.h"
 #include "core/skeletons/Segment.h"
+#include "core/skeletons/Spline.h"
 #include "tests/support/Random.h"
 
 #include <functional>
@@ -30,10 +32,15 @@ struct SkeletonCase
   double cover = 0.0;
   /// Inside a volume, by definition; null for curves.
   std::function<bool(const Vec3&)> inside;
+  /// distanceRange() is exact to second order.
+  bool sharpRange = true;
 };
 
 /// Random skeletons of every kind, then degenerate ones.
 std::vector<SkeletonCase> skeletonCases();
+
+/// Points through which the curves of the tests go: a walk of about unit steps.
+std::vector<Vec3> randomWalk(Random& random, int count);
 
 /// A rotation or reflection times `scale`, with a translation.
 Affine3 randomSimilarity(Random& random, double scale);
