@@ -39,7 +39,8 @@ neck = HybridTreeHollowCylinder(
 )
 EDGE = 0.02
 bottle = HybridTreeBlend(registrationName="bottle", Input=[body, handle, foot, lip, neck], EdgeLength=EDGE)
-look(view, direction=(0.25, 0.45, 1.0), focus=(0.1, -0.05, 0), distance=4.6)
+CAMERA = dict(direction=(0.25, 0.45, 1.0), focus=(0.1, -0.05, 0), distance=4.6)
+look(view, **CAMERA)
 picture(view, bottle, os.path.join(folder, "bottle.png"), colour=GLAZE)
 check_closed(bottle, "bottle")
 
@@ -49,6 +50,7 @@ for name, warped in (
     ("tapered", HybridTreeTaper(registrationName="tapered", Input=bottle, Factor=0.5, **frame)),
     ("bent", HybridTreeBend(registrationName="bent", Input=bottle, Angle=50, **frame)),
 ):
+    look(view, **CAMERA)
     picture(view, warped, os.path.join(folder, f"bottle-{name}.png"), colour=GLAZE)
     check_closed(warped, f"{name} bottle")
 
