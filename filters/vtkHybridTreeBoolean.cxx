@@ -2,7 +2,13 @@
 #include "vtkHybridTreeBoolean.h"
 
 #include "core/nodes/Boolean.h"
+#include "vtkCellArray.h"
+#include "vtkHybridTreeFormulation.h"
+#include "vtkInformationVector.h"
+#include "vtkNew.h"
 #include "vtkObjectFactory.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
 
 vtkStandardNewMacro(vtkHybridTreeBoolean);
 
@@ -10,6 +16,7 @@ vtkStandardNewMacro(vtkHybridTreeBoolean);
 vtkHybridTreeBoolean::vtkHybridTreeBoolean()
 {
   this->SetNumberOfInputPorts(2);
+  this->SetNumberOfOutputPorts(2);
 }
 
 vtkHybridTreeBoolean::~vtkHybridTreeBoolean() = default;
@@ -19,6 +26,33 @@ vtkHybridTreeBoolean::NodePtr vtkHybridTreeBoolean::MakeNode(const Operands& ope
 {
   return hybridtree::makeBoolean(static_cast<hybridtree::BooleanOperation>(this->Operation),
     operands[0].front(), operands[1].front(), static_cast<hybridtree::BooleanForm>(this->Form));
+}
+
+//------------------------------------------------------------------------------
+void vtkHybridTreeBoolean::FillOtherOutputs(vtkInformationVector* outputs)
+{
+  vtkPolyData* output = vtkPolyData::GetData(outputs, 1);
+  if (hybridtree::requested(outputs->GetInformationObject(0)) != hybridtree::Formulation::Mesh)
+  {
+    output->Initialize(); // nobody wants a mesh, and without it there are no curves
+    return;
+  }
+  vtkNew<vtkPoints> points;
+  points->SetDataType(VTK_DOUBLE);
+  vtkNew<vtkCellArray> lines;
+  for (const auto& curve : hybridtree::intersectionCurves(*this->GetTree(), this->EdgeLength))
+  {
+    const bool closed = curve.front() == curve.back();
+    const vtkIdType first = points->GetNumberOfPoints();
+    lines->InsertNextCell(static_cast<int>(curve.size()));
+    for (std::size_t k = 0; k < curve.size(); ++k)
+    {
+      const bool back = closed && k + 1 == curve.size();
+      lines->InsertCellPoint(back ? first : points->InsertNextPoint(curve[k].data()));
+    }
+  }
+  output->SetPoints(points);
+  output->SetLines(lines);
 }
 
 //------------------------------------------------------------------------------

@@ -4,7 +4,10 @@
  * @brief   union, intersection or difference of two nodes
  *
  * A is port 0, B is port 1 ([HT] 4.4). Disjoint, touching and equal operands are answered, with
- * an empty output where nothing is left.
+ * an empty output where nothing is left. The meshes of both are cut ([HT] 5.3): triangles away from
+ * the cut stay as they are, and the edges of the cut are sharp.
+ *
+ * Output port 1 has the curves in which the surfaces of A and B cross, as polylines.
  */
 
 #ifndef vtkHybridTreeBoolean_h
@@ -60,6 +63,7 @@ protected:
 
 #ifndef __VTK_WRAP__
   NodePtr MakeNode(const Operands& operands) override;
+  void FillOtherOutputs(vtkInformationVector* outputs) override;
 #endif
 
   int Operation = UNION;

@@ -143,7 +143,7 @@ private:
     result_.cutPoints.reserve(result_.mesh.points.size() - at);
     for (const Crossing& c : curves_.crossings)
     {
-      result_.cutPoints.push_back({ c.mesh, c.low, c.high, c.parameter, c.other });
+      result_.cutPoints.push_back({ c.mesh, c.low, c.high, c.parameter, c.other, c.position });
       result_.mesh.points[at++] = c.position;
     }
     for (std::size_t mesh = 0; mesh < 2; ++mesh)
@@ -153,6 +153,7 @@ private:
       {
         CutPoint origin;
         origin.operand = std::int8_t(1 - mesh);
+        origin.position = point;
         result_.cutPoints.push_back(origin);
         result_.mesh.points[at++] = point;
       }

@@ -2,6 +2,7 @@
 #include "core/boolean/CleanResult.h"
 
 #include "core/boolean/FlatTriangles.h"
+#include "core/boolean/NearCut.h"
 
 #include <algorithm>
 #include <array>
@@ -37,6 +38,31 @@ public:
     std::iota(becomes_.begin(), becomes_.end(), 0);
     this->dropThinComponents();
     this->removeFlat();
+    this->compact();
+  }
+
+  void makeRoom(const std::vector<Vec3>& normals, double distance)
+  {
+    tolerance_ = distance;
+    becomes_.resize(mesh_.points.size());
+    std::iota(becomes_.begin(), becomes_.end(), 0);
+    near_.assign(mesh_.points.size(), 0);
+    std::fill(near_.begin() + std::ptrdiff_t(result_.firstCut), near_.end(), char(1));
+    const std::vector<std::int32_t> part = this->partAround();
+    std::vector<Triangle> corners;
+    std::vector<std::int8_t> operand;
+    std::vector<Vec3> facing;
+    for (const std::int32_t t : part)
+    {
+      corners.push_back(mesh_.triangles[std::size_t(t)]);
+      operand.push_back(result_.sourceOperand[std::size_t(t)]);
+      facing.push_back(normals[std::size_t(t)]);
+    }
+    const auto isCut = [&](std::int32_t point) { return std::size_t(point) >= result_.firstCut; };
+    NearCut nearCut(
+      mesh_.points, std::move(corners), std::move(operand), std::move(facing), isCut, distance);
+    nearCut.run();
+    this->writeBack(part, nearCut);
     this->compact();
   }
 
@@ -124,8 +150,8 @@ private:
     }
   }
 
-  // Two rings around the flat triangles: those in the inner one may change.
-  void removeFlat()
+  // Triangles around the marked points, two rings of them: those in the inner one may change.
+  std::vector<std::int32_t> partAround()
   {
     for (char ring = 2; ring <= 3; ++ring)
     {
@@ -146,7 +172,6 @@ private:
       near_.swap(grown);
     }
     std::vector<std::int32_t> part;
-    std::vector<Triangle> corners;
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
     {
       const Triangle& c = mesh_.triangles[t];
@@ -156,8 +181,18 @@ private:
           { return near_[std::size_t(point)] == 1 || near_[std::size_t(point)] == 2; }))
       {
         part.push_back(std::int32_t(t));
-        corners.push_back(c);
       }
+    }
+    return part;
+  }
+
+  void removeFlat()
+  {
+    const std::vector<std::int32_t> part = this->partAround();
+    std::vector<Triangle> corners;
+    for (const std::int32_t t : part)
+    {
+      corners.push_back(mesh_.triangles[std::size_t(t)]);
     }
     const auto rank = [&](std::int32_t point)
     { return std::size_t(point) >= result_.firstCut ? 1 : 0; };
@@ -166,19 +201,20 @@ private:
     this->writeBack(part, flat);
   }
 
-  void writeBack(const std::vector<std::int32_t>& part, const FlatTriangles& flat)
+  template <class Change>
+  void writeBack(const std::vector<std::int32_t>& part, const Change& change)
   {
     const std::vector<std::int8_t> operand = result_.sourceOperand;
     const std::vector<std::int32_t> source = result_.sourceTriangle;
     for (std::size_t k = 0; k < part.size(); ++k)
     {
       const std::size_t t = std::size_t(part[k]);
-      const std::size_t from = std::size_t(part[std::size_t(flat.place()[k])]);
-      mesh_.triangles[t] = flat.triangles()[k];
+      const std::size_t from = std::size_t(part[std::size_t(change.place()[k])]);
+      mesh_.triangles[t] = change.triangles()[k];
       result_.sourceOperand[t] = operand[from];
       result_.sourceTriangle[t] = source[from];
     }
-    for (const std::array<std::int32_t, 2>& merge : flat.merged())
+    for (const std::array<std::int32_t, 2>& merge : change.merged())
     {
       becomes_[std::size_t(merge[0])] = merge[1];
     }
@@ -294,6 +330,11 @@ private:
 void cleanResult(MeshBooleanResult& result)
 {
   Cleaner(result).run();
+}
+
+void makeRoomForCut(MeshBooleanResult& result, const std::vector<Vec3>& normals, double distance)
+{
+  Cleaner(result).makeRoom(normals, distance);
 }
 
 } // namespace hybridtree

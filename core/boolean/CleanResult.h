@@ -12,4 +12,9 @@ namespace hybridtree
 /// Keeps the mesh closed and manifold; what cannot go for that reason stays.
 void cleanResult(MeshBooleanResult& result);
 
+/// For operands whose triangles need not stay: merges points nearer to the cut than `distance` into
+/// it (NearCut.h), so that its own points have room where they have been moved.
+/// \param normals per triangle of the result: that of the triangle it is a part of, of any length.
+void makeRoomForCut(MeshBooleanResult& result, const std::vector<Vec3>& normals, double distance);
+
 } // namespace hybridtree

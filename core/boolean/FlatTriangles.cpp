@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/boolean/FlatTriangles.h"
 
+#include "core/boolean/LocalPart.h"
 #include "core/mesh/MeshLinks.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numeric>
-#include <unordered_map>
 #include <utility>
 
 namespace hybridtree
@@ -37,9 +37,11 @@ class FlatTriangles::Worker
 public:
   using Index = MeshLinks::Index;
 
-  Worker(FlatTriangles& owner, const std::vector<std::int32_t>& pointOf,
-    const std::vector<Triangle>& local)
-    : owner_(owner), pointOf_(pointOf), links_(local, pointOf.size())
+  Worker(FlatTriangles& owner, const LocalPart& part)
+    : owner_(owner)
+    , part_(part)
+    , pointOf_(part.pointOf)
+    , links_(part.triangles, part.pointOf.size())
   {
   }
 
@@ -54,14 +56,7 @@ public:
         changed = (this->isFlatNow(t) && (this->collapse(t) || this->flip(t))) || changed;
       }
     }
-    for (std::size_t t = 0; t < links_.triangleCount(); ++t)
-    {
-      for (std::size_t k = 0; k < 3; ++k)
-      {
-        const Index point = links_.triangle(t)[k];
-        owner_.triangles_[t][k] = point < 0 ? -1 : pointOf_[std::size_t(point)];
-      }
-    }
+    part_.write(links_, owner_.triangles_);
   }
 
 private:
@@ -148,6 +143,7 @@ private:
   }
 
   FlatTriangles& owner_;
+  const LocalPart& part_;
   const std::vector<std::int32_t>& pointOf_;
   MeshLinks links_;
 };
@@ -165,22 +161,8 @@ FlatTriangles::FlatTriangles(const std::vector<Vec3>& points, std::vector<Triang
 
 void FlatTriangles::remove()
 {
-  std::unordered_map<std::int32_t, std::int32_t> numbers;
-  std::vector<std::int32_t> pointOf;
-  std::vector<Triangle> local = triangles_;
-  for (Triangle& corner : local)
-  {
-    for (std::int32_t& point : corner)
-    {
-      const auto [found, isNew] = numbers.try_emplace(point, std::int32_t(pointOf.size()));
-      if (isNew)
-      {
-        pointOf.push_back(point);
-      }
-      point = found->second;
-    }
-  }
-  Worker(*this, pointOf, local).run();
+  const LocalPart part(triangles_);
+  Worker(*this, part).run();
 }
 
 } // namespace hybridtree

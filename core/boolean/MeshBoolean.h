@@ -25,6 +25,7 @@ struct CutPoint
   std::int32_t low = -1, high = -1; ///< ends of the edge; -1 for a point inside of `triangle`
   double parameter = 0.0;           ///< 0 at low, 1 at high
   std::int32_t triangle = -1;       ///< of the other operand
+  Vec3 position = Vec3::Zero();     ///< where the meshes cross
 };
 
 struct MeshBooleanResult

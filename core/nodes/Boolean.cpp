@@ -4,6 +4,7 @@
 #include "core/base/Error.h"
 #include "core/base/Scratch.h"
 #include "core/mesh/Dust.h"
+#include "core/nodes/BooleanMesh.h"
 #include "core/nodes/BooleanSource.h"
 #include "core/nodes/EnumNames.h"
 #include "core/nodes/LatticeMesh.h"
@@ -16,6 +17,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <mutex>
 
 namespace hybridtree
 {
@@ -29,6 +31,9 @@ const EnumNames<BooleanForm, 4> kForms = { "Form", "form",
 
 // Share of the edge length below which what a cut leaves behind is nothing but the lattice's noise.
 constexpr double kDust = 1e-4;
+
+// As many as Node keeps meshes.
+constexpr std::size_t kKeptCurves = 4;
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
@@ -167,6 +172,20 @@ public:
   Box3 surfaceBounds() const override { return surface_; }
   bool isNegative() const override { return negative_; }
 
+  std::vector<std::string> warnings() const override
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return warnings_;
+  }
+
+  std::vector<std::vector<Vec3>> curves(double edgeLength) const
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const auto found = std::find_if(
+      curves_.rbegin(), curves_.rend(), [&](const auto& kept) { return kept.first == edgeLength; });
+    return found != curves_.rend() ? found->second : std::vector<std::vector<Vec3>>();
+  }
+
   const char* kind() const override { return "boolean"; }
   Parameters parameters() const override
   {
@@ -178,6 +197,27 @@ public:
 
 protected:
   TriangleMesh makeMesh(double edgeLength, const Progress& progress) const override
+  {
+    BooleanMesh made = source_.isNothing()
+      ? BooleanMesh{ TriangleMesh(), {}, {} }
+      : booleanMesh(operation_, *a_, *b_, edgeLength, progress);
+    if (!made.mesh)
+    {
+      made.warnings.push_back("The Boolean is made on a lattice of the edge length instead: its "
+                              "sharp edges are notched.");
+      made.mesh = this->meshOnLattice(edgeLength, progress);
+    }
+    const std::lock_guard<std::mutex> lock(mutex_);
+    warnings_ = std::move(made.warnings);
+    if (curves_.size() == kKeptCurves)
+    {
+      curves_.erase(curves_.begin());
+    }
+    curves_.emplace_back(edgeLength, std::move(made.curves));
+    return std::move(*made.mesh);
+  }
+
+  TriangleMesh meshOnLattice(double edgeLength, const Progress& progress) const
   {
     TriangleMesh mesh = latticeMesh(*this, edgeLength, progress);
     if (operation_ != BooleanOperation::Union)
@@ -292,6 +332,10 @@ private:
   Box3 influence_;
   Box3 surface_;
   bool negative_ = false;
+  mutable std::mutex mutex_;
+  mutable std::vector<std::string> warnings_; ///< of the last mesh made
+  mutable std::vector<std::pair<double, std::vector<std::vector<Vec3>>>>
+    curves_; ///< by edge length
 };
 
 } // namespace
@@ -306,6 +350,18 @@ NodePtr makeBoolean(BooleanOperation operation, NodePtr a, NodePtr b, BooleanFor
     b = a;
   }
   return std::make_shared<Boolean>(operation, std::move(a), std::move(b), form);
+}
+
+std::vector<std::vector<Vec3>> intersectionCurves(
+  const Node& node, double edgeLength, const Progress& progress)
+{
+  const auto* boolean = dynamic_cast<const Boolean*>(&node);
+  if (!boolean)
+  {
+    return {};
+  }
+  node.mesh(edgeLength, progress);
+  return boolean->curves(edgeLength > 0.0 ? edgeLength : node.defaultEdgeLength());
 }
 
 NodePtr booleanFromParameters(

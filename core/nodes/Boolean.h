@@ -15,10 +15,19 @@ namespace hybridtree
 /// signedDistance() is exact or NaN: it is the children's distance where no part of the child's
 /// surface that was cut away can be the nearest.
 /// sourceLeaf() names a leaf of the operand whose surface it is at f = T, for every form.
+/// The mesh is the children's, cut (BooleanMesh.h); where they cannot be cut, that of the lattice,
+/// and warnings() says so from then on. All forms have the same surface, so the same mesh.
 /// Disjoint, empty and equal operands are answers, not errors.
 /// \pre no child is null. \throws InvalidParameter.
 NodePtr makeBoolean(
   BooleanOperation operation, NodePtr a, NodePtr b, BooleanForm form = BooleanForm::Automatic);
+
+/// Where the surfaces of a Boolean's children cross, as chains of points of its mesh; closed ones
+/// end where they begin. Makes the mesh if need be. Empty for any other kind of node, and where the
+/// mesh is that of the lattice.
+/// \throws as Node::mesh().
+std::vector<std::vector<Vec3>> intersectionCurves(
+  const Node& node, double edgeLength = 0.0, const Progress& progress = Progress::none());
 
 /// Kind "boolean", children A, B; names "operation" and "form".
 NodePtr booleanFromParameters(

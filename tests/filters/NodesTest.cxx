@@ -2,6 +2,7 @@
 // Each filter by itself: what it makes by default, and what its properties mean.
 #include "tests/filters/Support.h"
 
+#include "vtkCell.h"
 #include "vtkHybridTreeAffineTransform.h"
 #include "vtkHybridTreeBend.h"
 #include "vtkHybridTreeBlend.h"
@@ -233,6 +234,30 @@ TEST(Nodes, BooleanOperations)
   both->Update();
   EXPECT_EQ(messages.errors, "") << "an empty intersection is an answer";
   EXPECT_EQ(both->GetOutput()->GetNumberOfPoints(), 0);
+}
+
+/// Two balls cross in one circle, of a known radius in a known plane.
+TEST(Nodes, BooleanShowsTheCurvesOfTheCut)
+{
+  const auto a = ball(0.0);
+  const auto b = ball(0.6);
+  vtkNew<vtkHybridTreeBoolean> both;
+  both->SetInputConnection(0, a->GetOutputPort());
+  both->SetInputConnection(1, b->GetOutputPort());
+  both->SetEdgeLength(0.05);
+  both->Update();
+  vtkPolyData* curves = both->GetOutput(1);
+  ASSERT_EQ(curves->GetNumberOfLines(), 1);
+  ASSERT_GT(curves->GetNumberOfPoints(), 20);
+  vtkCell* line = curves->GetCell(0);
+  EXPECT_EQ(line->GetPointId(0), line->GetPointId(line->GetNumberOfPoints() - 1)) << "closed";
+  for (vtkIdType k = 0; k < curves->GetNumberOfPoints(); ++k)
+  {
+    double p[3];
+    curves->GetPoint(k, p);
+    EXPECT_NEAR(p[0], 0.3, 1e-6);
+    EXPECT_NEAR(std::hypot(p[1], p[2]), 0.4, 1e-6);
+  }
 }
 
 /// The map of an affine filter applied to a ball's centre is where the image's field peaks.
