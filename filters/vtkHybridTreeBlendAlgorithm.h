@@ -31,9 +31,10 @@ public:
 
   ///@{
   /**
-   * How the mesh is made: AUTOMATIC (0, default) chooses, NODE_BASED (1) meshes the overlap of
-   * the operands anew, PRIMITIVE_BASED (2) the overlap of the leaves, GLOBAL (3) everything.
-   * The shape is the same for all. At present every method meshes everything.
+   * What of the mesh is made anew: NODE_BASED (1) only where the operands meet, PRIMITIVE_BASED (2)
+   * only where those meet that blends among the operands are made of, GLOBAL (3) everything;
+   * AUTOMATIC (0, default) is primitive-based where meshes take part and little of them is reached,
+   * else global. Elsewhere the operands' triangles stay as they are. The shape is the same for all.
    */
   vtkSetMacro(Method, int);
   vtkGetMacro(Method, int);
@@ -41,8 +42,9 @@ public:
 
   ///@{
   /**
-   * Overlap ratio rho_0 up to which operands keep their own triangles ([HT] 5.2.1), no unit,
-   * range [0, 1], default 0.5. The shape does not depend on it.
+   * Overlap ratio rho_0 ([HT] 5.2.1), no unit, range [0, 1], default 0.5: an operand more of whose
+   * box of influence than this lies in those of the others gives up its own triangles. The shape
+   * does not depend on it.
    */
   vtkSetMacro(OverlapThreshold, double);
   vtkGetMacro(OverlapThreshold, double);

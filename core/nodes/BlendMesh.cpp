@@ -74,9 +74,31 @@ public:
 
 /// Fields of skeletons cost so little that cutting and joining meshes takes longer than sampling
 /// everything; those of meshes do not.
-bool paysToKeep(const Node& blend, const BlendOptions& options)
+bool mayPay(const Node& blend, const BlendOptions& options)
 {
   return options.method != BlendMethod::Automatic || blend.isFaceted();
+}
+
+/// Whether keeping the parts' triangles is faster than sampling where they are: a point of the
+/// patch, with the cut and the joint, costs about twice as much as one of the whole lattice.
+bool pays(const std::vector<KeptPart>& kept, const CellSet& cells, double cellSize)
+{
+  // Measured on scans and round shapes: marked cells per point made in them, and points of a
+  // lattice per squared cell size of surface.
+  constexpr double kCellsPerPoint = 6.0;
+  constexpr double kPointsPerSquare = 1.4;
+  constexpr double kCostOfPatch = 2.2;
+  double area = 0.0;
+  for (const KeptPart& part : kept)
+  {
+    for (std::size_t t = 0; t < part.mesh->triangles.size(); ++t)
+    {
+      area += 0.5 * areaNormal(*part.mesh, t).norm();
+    }
+  }
+  const double all = kPointsPerSquare * area / (cellSize * cellSize);
+  const double made = static_cast<double>(cells.size()) / kCellsPerPoint;
+  return kCostOfPatch * made < std::max(all, made);
 }
 
 TriangleMesh wholeLattice(
@@ -232,7 +254,7 @@ TriangleMesh blendMesh(const Node& blend, const std::vector<BlendPart>& parts,
   {
     return {};
   }
-  if (options.method == BlendMethod::Global || !paysToKeep(blend, options))
+  if (options.method == BlendMethod::Global || !mayPay(blend, options))
   {
     return wholeLattice(blend, edgeLength, report, progress);
   }
@@ -248,6 +270,10 @@ TriangleMesh blendMesh(const Node& blend, const std::vector<BlendPart>& parts,
   const CellGrid grid = CellGrid::ofLevel(edgeLength, blend.depth());
   CellSet cells =
     markedCells(terms, SumInteraction(), grid, budget, ProgressPart(progress, 0.3, 0.4));
+  if (options.method == BlendMethod::Automatic && !pays(kept, cells, edgeLength))
+  {
+    return wholeLattice(blend, edgeLength, report, ProgressPart(progress, 0.4, 1.0));
+  }
   return stitchOver(blend, kept, std::move(cells), grid, report, ProgressPart(progress, 0.4, 1.0));
 }
 
@@ -259,7 +285,7 @@ TriangleMesh localBlendMesh(const Node& blend, const LocalBlendParts& local,
   {
     return {};
   }
-  if (options.method == BlendMethod::Global || !paysToKeep(blend, options))
+  if (options.method == BlendMethod::Global || !mayPay(blend, options))
   {
     return wholeLattice(blend, edgeLength, report, progress);
   }
@@ -278,6 +304,10 @@ TriangleMesh localBlendMesh(const Node& blend, const LocalBlendParts& local,
   const CellGrid grid = CellGrid::ofLevel(edgeLength, blend.depth());
   CellSet cells =
     markedCells(terms, LocalInteraction(), grid, budget, ProgressPart(progress, 0.3, 0.4));
+  if (options.method == BlendMethod::Automatic && !pays(kept, cells, edgeLength))
+  {
+    return wholeLattice(blend, edgeLength, report, ProgressPart(progress, 0.4, 1.0));
+  }
   return stitchOver(blend, kept, std::move(cells), grid, report, ProgressPart(progress, 0.4, 1.0));
 }
 

@@ -2,6 +2,7 @@
 #include "core/stitch/PatchShape.h"
 
 #include "core/mesh/MeshLinks.h"
+#include "core/stitch/ProjectPoints.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,11 +16,17 @@ namespace
 using Index = MeshLinks::Index;
 
 constexpr int kMaxRounds = 8;
+constexpr int kMoves = 3;
+constexpr double kLongestMove = 0.3; // cells, along the surface,
+constexpr double kMoveReach = 0.1;   // and back onto it
+constexpr double kSmooth = 0.9;      // cosine between the normals around a point that may move
 constexpr double kBadShape = 0.9397; // cosine of 20 degrees
-constexpr double kSliver = 0.9998;   // cosine of a smallest angle whose normal means nothing
+constexpr double kSliver = 0.9848;   // cosine of 10 degrees: below, a triangle's normal says little
 constexpr double kWorthIt = 0.002;   // gain in that cosine
+constexpr double kMostBent = 0.15;   // cells, across the four points of a flipped edge
 constexpr double kMostOff = 0.05;    // cells, between old and new surface
-constexpr double kLargestTurn = 0.8; // cosine, of a triangle's normal
+constexpr double kLargestTurn = 0.8; // cosine, of the normal of a triangle,
+constexpr double kLargestTilt = 0.6; // or of one to the normals of its points
 constexpr double kFlatEnough = 0.94; // cosine of the angle across an edge that may be flipped
 constexpr double kLongestSide = 1.6; // cells, of a triangle that had shorter ones
 
@@ -32,6 +39,14 @@ double shapeOf(const Vec3& a, const Vec3& b, const Vec3& c)
   return scale > 0.0 ? (squared[1] + squared[2] - squared[0]) / scale : 1.0;
 }
 
+/// 1 without area, 0 from a smallest angle of 30 degrees on. Its sum falls with every change.
+double badness(double shape)
+{
+  constexpr double kGood = 0.866;
+  const double over = std::max(shape - kGood, 0.0) / (1.0 - kGood);
+  return over * over;
+}
+
 Vec3 normalOf(const Vec3& a, const Vec3& b, const Vec3& c)
 {
   return (b - a).cross(c - a);
@@ -40,10 +55,11 @@ Vec3 normalOf(const Vec3& a, const Vec3& b, const Vec3& c)
 class ShapeImprover
 {
 public:
-  ShapeImprover(StitchedMesh& stitched, std::size_t firstOwn, double cellSize)
-    : mesh_(stitched.mesh)
+  ShapeImprover(const FieldSource& field, StitchedMesh& stitched, double cellSize)
+    : field_(field)
+    , mesh_(stitched.mesh)
     , first_(stitched.keptTriangles)
-    , firstOwn_(static_cast<Index>(firstOwn))
+    , firstOwn_(static_cast<Index>(stitched.keptPoints))
     , cellSize_(cellSize)
     , triangles_(this->gather())
     , links_(triangles_, points_.size())
@@ -53,17 +69,10 @@ public:
 
   void run()
   {
-    for (int round = 0; round < kMaxRounds; ++round)
+    this->mendAll();
+    for (int round = 0; round < kMoves && this->moveAll(); ++round)
     {
-      bool any = false;
-      for (std::size_t t = 0; t < links_.triangleCount(); ++t)
-      {
-        any = (!links_.isRemoved(t) && this->shape(t) > kBadShape && this->mend(t)) || any;
-      }
-      if (!any)
-      {
-        break;
-      }
+      this->mendAll();
     }
     this->giveBack();
   }
@@ -106,6 +115,124 @@ private:
   double length(Index h) const
   {
     return (this->point(links_.from(h)) - this->point(links_.to(h))).norm();
+  }
+
+  void mendAll()
+  {
+    for (int round = 0; round < kMaxRounds; ++round)
+    {
+      bool any = false;
+      for (std::size_t t = 0; t < links_.triangleCount(); ++t)
+      {
+        any = (!links_.isRemoved(t) && this->shape(t) > kBadShape && this->mend(t)) || any;
+      }
+      if (!any)
+      {
+        return;
+      }
+    }
+  }
+
+  /// Moves own points of bad triangles along the surface towards the middle of their neighbours.
+  bool moveAll()
+  {
+    std::vector<Index> moving;
+    std::vector<bool> known(points_.size(), false);
+    for (std::size_t t = 0; t < links_.triangleCount(); ++t)
+    {
+      if (links_.isRemoved(t) || this->shape(t) <= kBadShape)
+      {
+        continue;
+      }
+      for (const Index v : links_.triangle(t))
+      {
+        if (!known[v] && this->isOwn(v) && !links_.isLocked(v) && !this->isOnCrease(v))
+        {
+          moving.push_back(v);
+        }
+        known[v] = true;
+      }
+    }
+    TriangleMesh moved;
+    std::vector<std::size_t> all;
+    for (const Index v : moving)
+    {
+      all.push_back(moved.points.size());
+      moved.points.push_back(this->middleAround(v));
+      moved.normals.push_back(mesh_.normals[points_[v]]);
+    }
+    projectPoints(field_, all, kMoveReach * cellSize_, moved);
+    bool any = false;
+    for (std::size_t k = 0; k < moving.size(); ++k)
+    {
+      any = this->move(moving[k], moved.points[k], moved.normals[k]) || any;
+    }
+    return any;
+  }
+
+  bool isOnCrease(Index v) const
+  {
+    Vec3 first = Vec3::Zero();
+    bool crease = false;
+    links_.forEachLeaving(v,
+      [&](Index h)
+      {
+        const auto t = static_cast<std::size_t>(h / 3);
+        if (this->shape(t) < kSliver)
+        {
+          const Vec3 normal = this->normal(t).normalized();
+          first = first.isZero(0.0) ? normal : first;
+          crease = crease || first.dot(normal) < kSmooth;
+        }
+      });
+    return crease;
+  }
+
+  Vec3 middleAround(Index v) const
+  {
+    Vec3 sum = Vec3::Zero();
+    int count = 0;
+    links_.forEachLeaving(v,
+      [&](Index h)
+      {
+        sum += this->point(links_.to(h));
+        ++count;
+      });
+    const Vec3& up = mesh_.normals[points_[v]];
+    Vec3 way = sum / count - this->point(v);
+    way -= up.dot(way) * up;
+    const double length = way.norm();
+    return this->point(v) + way * std::min(1.0, kLongestMove * cellSize_ / length);
+  }
+
+  bool move(Index v, const Vec3& target, const Vec3& up)
+  {
+    double before = 0.0;
+    double after = 0.0;
+    bool allowed = true;
+    links_.forEachLeaving(v,
+      [&](Index h)
+      {
+        const Index b = links_.to(h);
+        const Index c = links_.opposite(h);
+        before += badness(this->shape(static_cast<std::size_t>(h / 3)));
+        after += badness(shapeOf(target, this->point(b), this->point(c)));
+        const Vec3 turned = normalOf(target, this->point(b), this->point(c));
+        const Vec3 around = up + mesh_.normals[points_[b]] + mesh_.normals[points_[c]];
+        allowed = allowed && turned.dot(around) > kLargestTilt * turned.norm() * around.norm();
+      });
+    if (!allowed || after > before - kWorthIt)
+    {
+      return false;
+    }
+    mesh_.points[points_[v]] = target;
+    mesh_.normals[points_[v]] = up;
+    if (!mesh_.vertexOrigin.empty())
+    {
+      mesh_.vertexOrigin[points_[v]] = {};
+    }
+    links_.forEachLeaving(v, [&](Index h) { touched_[h / 3] = true; });
+    return true;
   }
 
   /// The best of all collapses and flips of a triangle's sides.
@@ -156,7 +283,7 @@ private:
     return true;
   }
 
-  /// By how much the worst shape around the start of h gets better; 0 or less when it may not go.
+  /// By how much the shapes around the start of h get better; 0 or less when it may not go.
   double gainOfCollapse(Index h) const
   {
     const Index from = links_.from(h);
@@ -174,8 +301,10 @@ private:
       [&](Index leaving)
       {
         longest = std::max(longest, this->length(leaving));
-        before = std::max(before, this->shape(static_cast<std::size_t>(leaving / 3)));
+        before += badness(this->shape(static_cast<std::size_t>(leaving / 3)));
       });
+    const Vec3& up = mesh_.normals[points_[from]];
+    allowed = std::abs(up.dot(target - this->point(from))) <= 2.0 * kMostOff * cellSize_;
     const double limit = std::max(kLongestSide * cellSize_, longest);
     links_.forEachLeaving(from,
       [&](Index leaving)
@@ -196,10 +325,10 @@ private:
         }
         const Vec3 turned = normalOf(target, this->point(b), this->point(c));
         const Vec3 reference = solid ? old : this->meanNormal(b, c, to);
-        const double cosine = solid ? kLargestTurn : 0.3;
+        const double cosine = solid ? kLargestTurn : kLargestTilt;
         allowed = allowed && turned.dot(reference) > cosine * turned.norm() * reference.norm() &&
           (this->point(b) - target).norm() <= limit;
-        after = std::max(after, shapeOf(target, this->point(b), this->point(c)));
+        after += badness(shapeOf(target, this->point(b), this->point(c)));
       });
     return allowed ? before - after : 0.0;
   }
@@ -219,8 +348,8 @@ private:
     const Vec3& b = this->point(ib);
     const Vec3& c = this->point(ic);
     const Vec3& d = this->point(id);
-    const double before = std::max(shapeOf(a, b, c), shapeOf(b, a, d));
-    const double after = std::max(shapeOf(d, b, c), shapeOf(c, a, d));
+    const double before = badness(shapeOf(a, b, c)) + badness(shapeOf(b, a, d));
+    const double after = badness(shapeOf(d, b, c)) + badness(shapeOf(c, a, d));
     if ((c - d).norm() > std::max(kLongestSide * cellSize_, (a - b).norm()))
     {
       return 0.0;
@@ -232,13 +361,16 @@ private:
     {
       return 0.0;
     }
-    const Vec3 both =
-      solid ? Vec3(first + second) : Vec3(first.norm() > second.norm() ? first : second);
+    // Slivers have no normal to speak of; the surface has.
+    const Vec3 both = solid ? Vec3(first + second)
+                            : Vec3(this->meanNormal(ia, ib, ic) + mesh_.normals[points_[id]]);
+    const double cosine = solid ? kLargestTurn : kLargestTilt;
     const auto agrees = [&](const Vec3& made)
-    { return made.dot(both) > kLargestTurn * made.norm() * both.norm(); };
-    // What the edge was on one side of, it must stay near to.
-    const bool near = std::abs(both.dot(c - a)) <= kMostOff * cellSize_ * both.norm() &&
-      std::abs(both.dot(d - a)) <= kMostOff * cellSize_ * both.norm();
+    { return made.dot(both) > cosine * made.norm() * both.norm(); };
+    const double off = both.dot(c - a) * both.dot(d - a) > 0.0
+      ? std::max(std::abs(both.dot(c - a)), std::abs(both.dot(d - a)))
+      : std::abs(both.dot(c - d));
+    const bool near = off <= kMostBent * cellSize_ * both.norm();
     return near && agrees(normalOf(d, b, c)) && agrees(normalOf(c, a, d)) ? before - after : 0.0;
   }
 
@@ -300,6 +432,7 @@ private:
     }
   }
 
+  const FieldSource& field_;
   TriangleMesh& mesh_;
   const std::size_t first_;
   const Index firstOwn_;
@@ -312,11 +445,11 @@ private:
 
 } // namespace
 
-void improveShapes(StitchedMesh& stitched, std::size_t firstOwn, double cellSize)
+void improveShapes(const FieldSource& field, StitchedMesh& stitched, double cellSize)
 {
   if (stitched.keptTriangles < stitched.mesh.triangles.size())
   {
-    ShapeImprover(stitched, firstOwn, cellSize).run();
+    ShapeImprover(field, stitched, cellSize).run();
   }
 }
 

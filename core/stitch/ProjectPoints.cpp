@@ -11,8 +11,8 @@ namespace hybridtree
 namespace
 {
 
-constexpr std::size_t kPointsPerTask = 256;
-constexpr int kNewtonSteps = 3;
+constexpr std::size_t kPointsPerTask = 64; // that lie together, mostly: one part of the field does
+constexpr int kNewtonSteps = 5;
 constexpr double kSettled = 2e-4;    // of the reach: a residual step below this is the last
 constexpr double kSearchReach = 2.0; // that of Newton steps, for the search along the normal
 constexpr int kProbes = 8;           // to each side
@@ -93,39 +93,48 @@ private:
 std::vector<std::size_t> newton(const FieldSource& field, const std::size_t* begin,
   std::size_t count, double reach, TriangleMesh& mesh)
 {
-  ScratchVectors points(count), gradients(count);
-  ScratchArray values(count);
-  std::vector<std::size_t> left;
-  for (std::size_t k = 0; k < count; ++k)
+  std::vector<std::size_t> active(begin, begin + count);
+  std::vector<Vec3> place;
+  for (const std::size_t point : active)
   {
-    points.batch().set(k, mesh.points[begin[k]]);
+    place.push_back(mesh.points[point]);
   }
-  for (int step = 0; step <= kNewtonSteps; ++step)
+  std::vector<std::size_t> failed;
+  for (int step = 0; step < kNewtonSteps && !active.empty(); ++step)
   {
+    ScratchVectors points(active.size()), gradients(active.size());
+    ScratchArray values(active.size());
+    for (std::size_t k = 0; k < active.size(); ++k)
+    {
+      points.batch().set(k, place[k]);
+    }
     field.fieldAndGradient(points.points(), values.data(), gradients.batch());
-    for (std::size_t k = 0; k < count; ++k)
+    std::size_t left = 0;
+    for (std::size_t k = 0; k < active.size(); ++k)
     {
       const Vec3 gradient = gradients.points()[k];
       const double squared = gradient.squaredNorm();
-      const Vec3 at = points.points()[k];
       const Vec3 move = gradient * ((kThreshold - values[k]) / squared);
-      const bool known = squared * reach * reach > 1e-20;
-      if (step < kNewtonSteps)
+      const Vec3 to = place[k] + move;
+      if (!(squared * reach * reach > 1e-20) || !((to - mesh.points[active[k]]).norm() <= reach))
       {
-        const bool near = known && (at + move - mesh.points[begin[k]]).norm() <= reach;
-        points.batch().set(k, near ? Vec3(at + move) : at);
-        continue;
+        failed.push_back(active[k]);
       }
-      if (!known || !(move.norm() <= kSettled * reach))
+      else if (move.norm() <= kSettled * reach)
       {
-        left.push_back(begin[k]);
-        continue;
+        mesh.points[active[k]] = to;
+        mesh.normals[active[k]] = gradient / -std::sqrt(squared);
       }
-      mesh.points[begin[k]] = at;
-      mesh.normals[begin[k]] = gradient / -std::sqrt(squared);
+      else
+      {
+        active[left] = active[k];
+        place[left++] = to;
+      }
     }
+    active.resize(left);
   }
-  return left;
+  failed.insert(failed.end(), active.begin(), active.end());
+  return failed;
 }
 
 } // namespace
@@ -136,8 +145,20 @@ void projectPoints(const FieldSource& field, const std::vector<std::size_t>& poi
   parallelFor(points.size(), kPointsPerTask,
     [&](std::size_t begin, std::size_t end)
     {
-      NormalSearch search(field, kSearchReach * reach, mesh);
-      for (const std::size_t point : newton(field, &points[begin], end - begin, reach, mesh))
+      Box3 box;
+      for (std::size_t k = begin; k < end; ++k)
+      {
+        box.extend(mesh.points[points[k]]);
+      }
+      const Vec3 margin = Vec3::Constant(1.01 * kSearchReach * reach);
+      const FieldSourcePtr near =
+        field.restrictedTo(Box3(Vec3(box.min() - margin), Vec3(box.max() + margin)));
+      if (!near)
+      {
+        return;
+      }
+      NormalSearch search(*near, kSearchReach * reach, mesh);
+      for (const std::size_t point : newton(*near, &points[begin], end - begin, reach, mesh))
       {
         search.run(point);
       }

@@ -123,13 +123,9 @@ std::optional<StitchedMesh> stitch(const FieldSource& field, const std::vector<K
     projectPoints(field, pointsToMove(parts, cuts, patch, stitched), kReach * options.grid.cellSize,
       stitched.mesh);
     mendNormals(stitched.mesh, stitched.keptTriangles);
-    std::vector<Index3> wrong = patch.misfits;
-    if (wrong.empty() && faultyPoints(stitched.mesh, stitched.keptTriangles).empty())
-    {
-      improveShapes(stitched, stitched.keptPoints, options.grid.cellSize);
-    }
-    const std::vector<Index3> more = faults(stitched, options.grid);
-    wrong.insert(wrong.end(), more.begin(), more.end());
+    improveShapes(field, stitched, options.grid.cellSize);
+    std::vector<Index3> wrong = faults(stitched, options.grid);
+    wrong.insert(wrong.end(), patch.misfits.begin(), patch.misfits.end());
     if (wrong.empty())
     {
       return stitched;
