@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 namespace hybridtree
 {
@@ -94,31 +93,47 @@ std::vector<Triangle> triangulatePolygon(const std::vector<Vec2>& outline)
 }
 
 PlanarTriangulation::PlanarTriangulation(const std::vector<Vec2>& outline)
-  : points_(outline)
-  , fixed_(outline.size(), 1)
-  , triangles_(triangulatePolygon(outline))
-  , neighbours_(triangles_.size(), Sides{ -1, -1, -1 })
-  , triangleAt_(outline.size(), 0)
+  : PlanarTriangulation(outline, std::vector<char>(outline.size(), 1), triangulatePolygon(outline))
 {
-  std::map<std::pair<int, int>, Edge> open;
-  for (int t = 0; t < static_cast<int>(triangles_.size()); ++t)
+}
+
+PlanarTriangulation::PlanarTriangulation(
+  std::vector<Vec2> points, std::vector<char> fixed, std::vector<Triangle> triangles)
+  : points_(std::move(points))
+  , fixed_(std::move(fixed))
+  , triangles_(std::move(triangles))
+  , neighbours_(triangles_.size(), Sides{ -1, -1, -1 })
+  , triangleAt_(points_.size(), 0)
+{
+  this->connect();
+  this->flipAll();
+}
+
+void PlanarTriangulation::connect()
+{
+  // Sides in a list for each point that they begin at.
+  const auto begin = [](const Triangle& t, int side) { return t[side]; };
+  const auto end = [](const Triangle& t, int side) { return t[side == 2 ? 0 : side + 1]; };
+  std::vector<int> first(points_.size(), -1);
+  std::vector<int> next(3 * triangles_.size());
+  for (int s = 0; s < static_cast<int>(next.size()); ++s)
   {
-    for (int side = 0; side < 3; ++side)
+    const int point = begin(triangles_[s / 3], s % 3);
+    next[s] = first[point];
+    first[point] = s;
+    triangleAt_[point] = s / 3;
+  }
+  for (int s = 0; s < static_cast<int>(next.size()); ++s)
+  {
+    const int point = begin(triangles_[s / 3], s % 3);
+    for (int other = first[end(triangles_[s / 3], s % 3)]; other >= 0; other = next[other])
     {
-      const int a = triangles_[t][side];
-      const int b = triangles_[t][(side + 1) % 3];
-      triangleAt_[a] = t;
-      const auto other = open.find({ b, a });
-      if (other == open.end())
+      if (end(triangles_[other / 3], other % 3) == point)
       {
-        open[{ a, b }] = { t, side };
-        continue;
+        neighbours_[s / 3][s % 3] = other / 3;
       }
-      neighbours_[t][side] = other->second.triangle;
-      neighbours_[other->second.triangle][other->second.side] = t;
     }
   }
-  this->flipAll();
 }
 
 int PlanarTriangulation::turn(int a, int b, int c) const
@@ -356,7 +371,7 @@ void PlanarTriangulation::splitLongEdges(double length)
 {
   for (bool changed = true; changed;)
   {
-    std::vector<Vec2> middles;
+    std::vector<std::pair<Vec2, int>> middles; // and a point near by
     for (int t = 0; t < static_cast<int>(triangles_.size()); ++t)
     {
       for (int side = 0; side < 3; ++side)
@@ -365,16 +380,28 @@ void PlanarTriangulation::splitLongEdges(double length)
         const Vec2& b = points_[triangles_[t][(side + 1) % 3]];
         if (neighbours_[t][side] > t && (a - b).squaredNorm() > length * length)
         {
-          middles.push_back(0.5 * (a + b));
+          middles.emplace_back(0.5 * (a + b), triangles_[t][side]);
         }
       }
     }
     changed = false;
-    for (const Vec2& middle : middles)
+    for (const auto& [middle, near] : middles)
     {
+      last_ = triangleAt_[near];
       changed = this->insert(middle) >= 0 || changed;
     }
   }
+}
+
+double PlanarTriangulation::longestEdge() const
+{
+  double squared = 0.0;
+  for (const auto& [a, b, c] : triangles_)
+  {
+    squared = std::max({ squared, (points_[a] - points_[b]).squaredNorm(),
+      (points_[b] - points_[c]).squaredNorm(), (points_[c] - points_[a]).squaredNorm() });
+  }
+  return std::sqrt(squared);
 }
 
 void PlanarTriangulation::relax(std::vector<Vec2>& before)

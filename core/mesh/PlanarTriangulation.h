@@ -23,6 +23,13 @@ public:
   /// \pre as triangulatePolygon.
   explicit PlanarTriangulation(const std::vector<Vec2>& outline);
 
+  /// Of triangles that are there; their edges are flipped to Delaunay. \param fixed 1 for points
+  /// that smooth() leaves where they are: those of the border at least.
+  /// \pre the triangles are counter-clockwise and meet in whole edges, two at most; each point is
+  /// one of theirs.
+  PlanarTriangulation(
+    std::vector<Vec2> points, std::vector<char> fixed, std::vector<Triangle> triangles);
+
   /// A point on the outline, between point `from` of it and the one after that. Returns its number.
   /// \pre p is there, to rounding.
   int splitOutline(int from, const Vec2& p);
@@ -38,6 +45,7 @@ public:
   /// flips edges back to Delaunay; that many times.
   void smooth(int rounds);
 
+  double longestEdge() const;
   const std::vector<Vec2>& points() const { return points_; }
   const std::vector<Triangle>& triangles() const { return triangles_; }
 
@@ -49,6 +57,7 @@ private:
     int side; // from corner `side` to the next one
   };
 
+  void connect();
   int turn(int a, int b, int c) const;
   int addPoint(const Vec2& p, bool onOutline);
   int locate(const Vec2& p) const;
@@ -64,7 +73,7 @@ private:
   void relax(std::vector<Vec2>& before);
 
   std::vector<Vec2> points_;
-  std::vector<char> fixed_; // points of the outline
+  std::vector<char> fixed_; // points of the outline, and those said to be
   std::vector<Triangle> triangles_;
   std::vector<Sides> neighbours_; // across the side from corner k to k + 1; -1 at the outline
   std::vector<std::int32_t> triangleAt_; // one of each point

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/skeletons/PlateFace.h"
 
+#include "core/skeletons/PlateFill.h"
+#include "core/skeletons/PlateLattice.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 namespace hybridtree
 {
@@ -42,6 +46,47 @@ bool isEvenTriangle(const Corners& c)
   }
   const Vec3 lengths((c[1] - c[0]).norm(), (c[2] - c[1]).norm(), (c[0] - c[2]).norm());
   return lengths.minCoeff() >= 0.8 * lengths.maxCoeff();
+}
+
+// A mirror of the outline that swaps corners k and sum - k, counted around.
+struct Mirror
+{
+  int sum;
+  Vec2 start; // where the axis meets the outline: corner sum / 2, or the middle of the side there
+  Vec2 end;   // the same half way around
+};
+
+// One whose axis meets the outline nowhere else, so that either half is simple.
+std::optional<Mirror> mirrorOf(const Corners& c)
+{
+  const int n = static_cast<int>(c.size());
+  Eigen::AlignedBox2d box;
+  for (const Vec2& corner : c)
+  {
+    box.extend(corner);
+  }
+  const double rounding = 1e-11 * box.sizes().norm();
+  const auto at = [&](int k) { return c[static_cast<std::size_t>((k + n) % n)]; };
+  const auto middle = [&](int sum) { return Vec2(0.5 * (at(sum / 2) + at((sum + 1) / 2))); };
+  for (int sum = 0; sum < n; ++sum)
+  {
+    const Mirror mirror{ sum, middle(sum), middle(sum + n) };
+    const Vec2 along = (mirror.end - mirror.start).normalized();
+    bool fits = true;
+    // Corners on the way from start to end are on the right of the axis.
+    for (int k = sum / 2 + 1; fits && 2 * k < sum + n; ++k)
+    {
+      const Vec2 p = at(k) - mirror.start;
+      const double right = p.x() * along.y() - p.y() * along.x();
+      const Vec2 image = at(k) + 2.0 * right * Vec2(-along.y(), along.x());
+      fits = right > rounding && (image - at(sum - k)).norm() <= rounding;
+    }
+    if (fits)
+    {
+      return mirror;
+    }
+  }
+  return std::nullopt;
 }
 
 // The points of the outline, in order.
@@ -88,6 +133,12 @@ PlateFace gridOfParallelogram(const Corners& corners, const std::vector<int>& co
                   : firstInner + (j - 1) * (m - 1) + i - 1;
   };
   const double lean = skew(corners);
+  // Right angles have their diagonals either way.
+  const double diagonal = std::abs(lean) < 0.02
+    ? std::max((x / m + y / n).norm(), (x / m - y / n).norm())
+    : lean < 0.0 ? (x / m + y / n).norm()
+                 : (x / m - y / n).norm();
+  face.longest = 2.0 * std::max({ x.norm() / m, y.norm() / n, diagonal });
   face.triangles.reserve(static_cast<std::size_t>(2 * m * n));
   for (int j = 0; j < n; ++j)
   {
@@ -126,6 +177,9 @@ PlateFace gridOfTriangle(const Corners& corners, int n)
         double(n));
     }
   }
+  face.longest = std::max({ (corners[1] - corners[0]).norm(), (corners[2] - corners[1]).norm(),
+                   (corners[0] - corners[2]).norm() }) /
+    n;
   const auto id = [&](int i, int j)
   {
     return j == 0  ? i
@@ -147,103 +201,29 @@ PlateFace gridOfTriangle(const Corners& corners, int n)
   return face;
 }
 
-// Rows of a triangular lattice, as far inside the outline as `margin`.
-class LatticeFill
+void insertLattice(const Corners& corners, double spacing, PlanarTriangulation& triangulation)
 {
-public:
-  LatticeFill(const Corners& corners, double spacing)
-    : corners_(corners), spacing_(spacing), margin_(0.6 * spacing)
+  const PlateLattice lattice(corners, spacing, 0.6 * spacing);
+  for (const PlateLattice::Run& run : lattice.runs())
   {
-    for (const Vec2& corner : corners)
+    for (int x = run.first; x <= run.last; x += 2)
     {
-      box_.extend(corner);
+      // There and back, to start where the last row ended.
+      triangulation.insert(lattice.place(run.y & 1 ? run.first + run.last - x : x, run.y));
     }
   }
-
-  void fill(PlanarTriangulation& triangulation)
-  {
-    const double height = std::sqrt(0.75) * spacing_;
-    const int rows = static_cast<int>(std::ceil(box_.sizes().y() / height)) / 2 + 1;
-    for (int row = -rows; row <= rows; ++row)
-    {
-      const double y = box_.center().y() + row * height;
-      this->chooseSides(y);
-      std::vector<Vec2> points = this->row(y, (row & 1) ? 0.5 : 0.0);
-      if (row & 1)
-      {
-        std::reverse(points.begin(), points.end()); // to start where the last row ended
-      }
-      for (const Vec2& p : points)
-      {
-        triangulation.insert(p);
-      }
-    }
-  }
-
-private:
-  Vec2 end(std::size_t side) const { return corners_[(side + 1) % corners_.size()]; }
-
-  void chooseSides(double y)
-  {
-    near_.clear();
-    for (std::size_t side = 0; side < corners_.size(); ++side)
-    {
-      const auto [low, high] = std::minmax(corners_[side].y(), this->end(side).y());
-      if (low <= y + margin_ && high >= y - margin_)
-      {
-        near_.push_back(side);
-      }
-    }
-  }
-
-  std::vector<Vec2> row(double y, double shift) const
-  {
-    const int columns = static_cast<int>(std::ceil(box_.sizes().x() / spacing_)) / 2 + 1;
-    std::vector<Vec2> points;
-    for (int column = -columns; column <= columns; ++column)
-    {
-      const Vec2 p(box_.center().x() + (column + shift) * spacing_, y);
-      if (this->isWellInside(p))
-      {
-        points.push_back(p);
-      }
-    }
-    return points;
-  }
-
-  bool isWellInside(const Vec2& p) const
-  {
-    bool inside = false;
-    for (const std::size_t side : near_)
-    {
-      const Vec2& a = corners_[side];
-      const Vec2 b = this->end(side);
-      const Vec2 edge = b - a;
-      const double foot = std::clamp((p - a).dot(edge) / edge.squaredNorm(), 0.0, 1.0);
-      if ((p - a - foot * edge).squaredNorm() < margin_ * margin_)
-      {
-        return false;
-      }
-      if ((a.y() > p.y()) != (b.y() > p.y()))
-      {
-        inside ^= p.x() < a.x() + (p.y() - a.y()) * edge.x() / edge.y();
-      }
-    }
-    return inside;
-  }
-
-  const Corners& corners_;
-  double spacing_;
-  double margin_;
-  Eigen::AlignedBox2d box_;
-  std::vector<std::size_t> near_;
-};
+}
 
 PlateFace filledOutline(
   const Corners& corners, const std::vector<int>& counts, double spacing, double longest)
 {
-  PlanarTriangulation triangulation(corners);
   const std::vector<Vec2> outline = outlineOf(corners, counts);
+  if (auto face = fillOutline(corners, outline, spacing, longest))
+  {
+    return std::move(*face);
+  }
+  // Narrow ones, point by point.
+  PlanarTriangulation triangulation(corners);
   std::vector<int> order; // numbers of the outline's points in the triangulation
   int next = 0;
   for (std::size_t corner = 0; corner < corners.size(); ++corner)
@@ -257,7 +237,7 @@ PlateFace filledOutline(
       order.push_back(at);
     }
   }
-  LatticeFill(corners, spacing).fill(triangulation);
+  insertLattice(corners, spacing, triangulation);
   triangulation.smooth(6);
   triangulation.splitLongEdges(longest);
   triangulation.smooth(3);
@@ -265,6 +245,7 @@ PlateFace filledOutline(
   // The outline first, then what is inside.
   std::vector<int> number(triangulation.points().size(), -1);
   PlateFace face;
+  face.longest = triangulation.longestEdge();
   for (const int point : order)
   {
     number[static_cast<std::size_t>(point)] = static_cast<int>(face.points.size());
@@ -282,6 +263,63 @@ PlateFace filledOutline(
   {
     face.triangles.push_back({ number[static_cast<std::size_t>(a)],
       number[static_cast<std::size_t>(b)], number[static_cast<std::size_t>(c)] });
+  }
+  return face;
+}
+
+// One half filled, the other its image.
+PlateFace mirroredOutline(const Corners& corners, const Mirror& mirror,
+  const std::vector<int>& counts, double spacing, double longest)
+{
+  const int n = static_cast<int>(corners.size());
+  Corners half = { mirror.start };
+  std::vector<int> halfCounts;
+  int firstPoint = 0; // number of the outline's point at the start
+  for (int k = 0; k < mirror.sum / 2; ++k)
+  {
+    firstPoint += counts[static_cast<std::size_t>(k)];
+  }
+  // Sides from start to end: the first and the last may be halves.
+  const int firstSide = mirror.sum / 2;
+  const int lastSide = (mirror.sum + n - 1) / 2;
+  for (int k = firstSide; k <= lastSide; ++k)
+  {
+    const int count = counts[static_cast<std::size_t>(k % n)];
+    const bool isHalf = 2 * k + 1 == mirror.sum || 2 * k + 1 == mirror.sum + n;
+    firstPoint += 2 * k + 1 == mirror.sum ? count / 2 : 0;
+    halfCounts.push_back(isHalf ? count / 2 : count);
+    half.push_back(k == lastSide ? mirror.end : corners[static_cast<std::size_t>((k + 1) % n)]);
+  }
+  const int across = std::accumulate(halfCounts.begin(), halfCounts.end(), 0);
+  const double axis = (mirror.end - mirror.start).norm();
+  halfCounts.push_back(std::max(1, static_cast<int>(std::ceil(axis / spacing - 1e-9))));
+  const int onAxis = halfCounts.back() - 1;
+  const PlateFace filled = filledOutline(half, halfCounts, spacing, longest);
+
+  PlateFace face;
+  face.longest = filled.longest;
+  face.points = outlineOf(corners, counts);
+  const int total = static_cast<int>(face.points.size());
+  const int inner = static_cast<int>(filled.points.size()) - across - 1;
+  const auto id = [&](int p, int side)
+  {
+    return p <= across       ? (firstPoint + side * p + total) % total
+      : p <= across + onAxis ? total + p - across - 1
+                             : total + p - across - 1 + (side < 0 ? inner - onAxis : 0);
+  };
+  face.points.insert(face.points.end(), filled.points.begin() + across + 1, filled.points.end());
+  const Vec2 along = (mirror.end - mirror.start).normalized();
+  const Vec2 left(-along.y(), along.x());
+  for (std::size_t k = static_cast<std::size_t>(across + 1 + onAxis); k < filled.points.size(); ++k)
+  {
+    const Vec2& p = filled.points[k];
+    face.points.push_back(p - 2.0 * left.dot(p - mirror.start) * left);
+  }
+  face.triangles.reserve(2 * filled.triangles.size());
+  for (const auto& [a, b, c] : filled.triangles)
+  {
+    face.triangles.push_back({ id(a, 1), id(b, 1), id(c, 1) });
+    face.triangles.push_back({ id(a, -1), id(c, -1), id(b, -1) });
   }
   return face;
 }
@@ -306,6 +344,19 @@ std::vector<int> sideCounts(const std::vector<Vec2>& corners, double spacing)
   {
     counts.assign(3, *std::max_element(counts.begin(), counts.end()));
   }
+  else if (const auto mirror = mirrorOf(corners))
+  {
+    const int n = static_cast<int>(corners.size());
+    for (int k = 0; k < n; ++k)
+    {
+      // From corner k to the next, and back from the image of the next to that of k.
+      const int image = (mirror->sum - k - 1 + n) % n;
+      int& count = counts[static_cast<std::size_t>(k)];
+      count = std::max(count, counts[static_cast<std::size_t>(image)]);
+      count += k == image ? count % 2 : 0; // a point on the axis
+      counts[static_cast<std::size_t>(image)] = count;
+    }
+  }
   return counts;
 }
 
@@ -319,6 +370,10 @@ PlateFace meshFace(
   if (isEvenTriangle(corners))
   {
     return gridOfTriangle(corners, counts[0]);
+  }
+  if (const auto mirror = mirrorOf(corners))
+  {
+    return mirroredOutline(corners, *mirror, counts, spacing, longest);
   }
   return filledOutline(corners, counts, spacing, longest);
 }

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/skeletons/PlateMesh.h"
 
-#include "core/skeletons/LongestEdge.h"
 #include "core/skeletons/OffsetMesh.h"
 #include "core/skeletons/PlateFace.h"
 #include "core/skeletons/PlateRim.h"
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace hybridtree
 {
@@ -31,89 +31,101 @@ double areaOf(const std::vector<Vec2>& corners)
 class PlateMesher
 {
 public:
-  PlateMesher(const PlateShape& plate, const PlateRim& rim, const std::vector<Vec2>& corners,
-    double radius, double edgeLength, double spacing)
-    : plate_(plate), radius_(radius)
+  PlateMesher(const PlateShape& plate, double radius, std::vector<PlateRim::Ring> rings)
+    : plate_(plate)
+    , radius_(radius)
+    , rings_(std::move(rings))
+    , halfRings_(static_cast<int>(rings_.size()) - 1)
   {
-    const std::vector<int> counts = sideCounts(corners, spacing);
-    face_ = meshFace(corners, counts, spacing, edgeLength);
-    halfRings_ = std::max(1, static_cast<int>(std::ceil(0.5 * EIGEN_PI * radius / spacing)));
-    rings_.push_back(rim.outline(counts));
-    for (int k = 1; k <= halfRings_; ++k)
+    for (const PlateRim::Ring& ring : rings_)
     {
-      rings_.push_back(rim.curve(radius * this->cosine(k), spacing));
+      std::size_t size = 0;
+      for (const auto& chain : ring)
+      {
+        size += chain.size() - 1;
+      }
+      sizes_.push_back(static_cast<int>(size));
     }
   }
 
-  TriangleMesh make()
+  // The rim. Returns the length of its longest edge.
+  double makeRim()
   {
-    this->placePoints();
+    // The faces have some as many points again.
+    const auto count = std::accumulate(sizes_.begin(), sizes_.end(), std::size_t(0));
+    mesh_.points.reserve(4 * count);
+    mesh_.normals.reserve(4 * count);
+    mesh_.triangles.reserve(8 * count);
+    for (int k = 0; k <= halfRings_; ++k)
+    {
+      const double angle = 0.5 * EIGEN_PI * k / halfRings_;
+      const bool equator = k == halfRings_; // there once
+      this->placeRing(k, 1.0, equator ? 1.0 : std::sin(angle), equator ? 0.0 : std::cos(angle));
+      if (!equator)
+      {
+        this->placeRing(k, -1.0, std::sin(angle), std::cos(angle));
+      }
+    }
+    firstOfRing_[1].push_back(firstOfRing_[0].back());
     for (int k = 0; k < halfRings_; ++k)
     {
       this->addStrip(k);
     }
-    this->addFaces();
+    return std::sqrt(longestSquared_);
+  }
+
+  // With the faces. \pre their outline is ring 0.
+  TriangleMesh addFaces(const PlateFace& face)
+  {
+    mesh_.triangles.reserve(mesh_.triangles.size() + 2 * face.triangles.size());
+    mesh_.points.reserve(mesh_.points.size() + 2 * face.points.size());
+    this->addFace(face, false);
+    this->addFace(face, true);
     return std::move(mesh_);
   }
 
 private:
-  double cosine(int ring) const { return std::sin(0.5 * EIGEN_PI * ring / halfRings_); }
-
-  void addPoint(const Vec2& place, double height, const Vec2& across, double up)
+  void addFace(const PlateFace& face, bool lower)
   {
-    mesh_.points.push_back(
-      plate_.origin + plate_.axes * Vec3(place.x(), place.y(), radius_ * height));
-    mesh_.normals.push_back(plate_.axes * Vec3(across.x(), across.y(), up).normalized());
-  }
-
-  static int sizeOf(const PlateRim::Ring& ring)
-  {
-    std::size_t size = 0;
-    for (const auto& chain : ring)
+    const double side = lower ? -1.0 : 1.0;
+    const Vec3 up = plate_.axes.col(2);
+    const Vec3 origin = plate_.origin + side * radius_ * up;
+    const int outline = sizes_.front();
+    const int first = static_cast<int>(mesh_.points.size());
+    for (std::size_t k = static_cast<std::size_t>(outline); k < face.points.size(); ++k)
     {
-      size += chain.size() - 1;
+      mesh_.points.push_back(origin + plate_.axes.leftCols<2>() * face.points[k]);
     }
-    return static_cast<int>(size);
+    mesh_.normals.resize(mesh_.points.size(), side * up);
+    const auto idOf = [&](int p)
+    { return p < outline ? this->id(0, p, lower) : first + p - outline; };
+    for (const auto& [a, b, c] : face.triangles)
+    {
+      mesh_.triangles.push_back(
+        lower ? Triangle{ idOf(a), idOf(c), idOf(b) } : Triangle{ idOf(a), idOf(b), idOf(c) });
+    }
   }
 
-  void placePoints()
+  void placeRing(int ring, double side, double across, double up)
   {
-    for (const double side : { 1.0, -1.0 })
+    firstOfRing_[side < 0.0].push_back(static_cast<int>(mesh_.points.size()));
+    const Vec3 axis = side * up * plate_.axes.col(2);
+    const Vec3 origin = plate_.origin + radius_ * axis;
+    for (const auto& chain : rings_[static_cast<std::size_t>(ring)])
     {
-      firstOfFace_[side < 0.0] = static_cast<int>(mesh_.points.size());
-      for (const Vec2& p : face_.points)
+      for (std::size_t k = 0; k + 1 < chain.size(); ++k)
       {
-        this->addPoint(p, side, Vec2::Zero(), side);
+        const PlateRim::Point& p = chain[k];
+        const Vec2 place = p.foot + radius_ * across * p.outward;
+        Vec3 normal = plate_.axes.leftCols<2>() * (across * p.normal) + axis;
+        if (k == 0) // only there is a mitre
+        {
+          normal.normalize();
+        }
+        mesh_.points.push_back(origin + plate_.axes.leftCols<2>() * place);
+        mesh_.normals.push_back(normal);
       }
     }
-    for (int k = 1; k <= halfRings_; ++k)
-    {
-      const double across = k == halfRings_ ? 1.0 : this->cosine(k);
-      const double up = k == halfRings_ ? 0.0 : std::cos(0.5 * EIGEN_PI * k / halfRings_);
-      for (const double side : { 1.0, -1.0 })
-      {
-        if (k == halfRings_ && side < 0.0)
-        {
-          break; // the equator is there once
-        }
-        firstOfRing_[side < 0.0].push_back(static_cast<int>(mesh_.points.size()));
-        for (const auto& chain : rings_[static_cast<std::size_t>(k)])
-        {
-          for (std::size_t p = 0; p + 1 < chain.size(); ++p)
-          {
-            this->addPoint(chain[p].foot + radius_ * across * chain[p].outward, side * up,
-              across * chain[p].normal, side * up);
-          }
-        }
-      }
-    }
-    firstOfRing_[1].push_back(firstOfRing_[0].back());
-  }
-
-  int firstOf(int ring, bool lower) const
-  {
-    return ring == 0 ? firstOfFace_[lower]
-                     : firstOfRing_[lower][static_cast<std::size_t>(ring) - 1];
   }
 
   // Between ring k and the next, above and below: advancing on the ring whose next edge has its
@@ -122,73 +134,101 @@ private:
   {
     const PlateRim::Ring& inner = rings_[static_cast<std::size_t>(k)];
     const PlateRim::Ring& outer = rings_[static_cast<std::size_t>(k) + 1];
-    const double reach = radius_ * this->cosine(k + 1);
-    const auto key = [reach](const PlateRim::Point& p) { return p.along + reach * p.angle; };
-    const int innerSize = sizeOf(inner);
-    const int outerSize = sizeOf(outer);
+    const double reach = radius_ * std::sin(0.5 * EIGEN_PI * (k + 1) / halfRings_);
     int a = 0;
     int b = 0;
     for (std::size_t chain = 0; chain < inner.size(); ++chain)
     {
-      const auto& p = inner[chain];
-      const auto& q = outer[chain];
-      const double total = std::max(key(p.back()), key(q.back()));
+      findKeys(inner[chain], reach, innerKeys_);
+      findKeys(outer[chain], reach, outerKeys_);
+      const double total = std::max(innerKeys_.back(), outerKeys_.back());
       std::size_t i = 0;
       std::size_t j = 0;
-      while (i + 1 < p.size() || j + 1 < q.size())
+      while (i + 1 < innerKeys_.size() || j + 1 < outerKeys_.size())
       {
-        bool onInner = j + 1 == q.size();
-        if (!onInner && i + 1 < p.size())
+        bool onInner = j + 1 == outerKeys_.size();
+        if (!onInner && i + 1 < innerKeys_.size())
         {
-          const double difference = key(p[i]) + key(p[i + 1]) - key(q[j]) - key(q[j + 1]);
+          const double middle = innerKeys_[i] + innerKeys_[i + 1];
+          const double difference = middle - outerKeys_[j] - outerKeys_[j + 1];
           const bool even = std::abs(difference) <= 1e-9 * total;
-          onInner = even ? key(p[i]) + key(p[i + 1]) < total : difference < 0.0;
+          onInner = even ? middle < total : difference < 0.0;
         }
-        const int pa = (a + static_cast<int>(i)) % innerSize;
-        const int qb = (b + static_cast<int>(j)) % outerSize;
         if (onInner)
         {
-          this->addBoth(k, pa, k + 1, qb, k, (pa + 1) % innerSize);
+          const int next = this->after(k, a);
+          this->addBoth(k, a, k + 1, b, k, next);
+          a = next;
           ++i;
         }
         else
         {
-          this->addBoth(k, pa, k + 1, qb, k + 1, (qb + 1) % outerSize);
+          const int next = this->after(k + 1, b);
+          this->addBoth(k, a, k + 1, b, k + 1, next);
+          b = next;
           ++j;
         }
       }
-      a += static_cast<int>(p.size()) - 1;
-      b += static_cast<int>(q.size()) - 1;
     }
   }
 
-  void addBoth(int ringA, int a, int ringB, int b, int ringC, int c)
+  static void findKeys(
+    const std::vector<PlateRim::Point>& chain, double reach, std::vector<double>& keys)
   {
-    const auto id = [&](int ring, int p, bool lower) { return this->firstOf(ring, lower) + p; };
-    mesh_.triangles.push_back({ id(ringA, a, false), id(ringB, b, false), id(ringC, c, false) });
-    mesh_.triangles.push_back({ id(ringA, a, true), id(ringC, c, true), id(ringB, b, true) });
+    keys.clear();
+    for (const PlateRim::Point& p : chain)
+    {
+      keys.push_back(p.along + reach * p.angle);
+    }
   }
 
-  void addFaces()
+  int after(int ring, int point) const
   {
-    for (const auto& [a, b, c] : face_.triangles)
+    return point + 1 == sizes_[static_cast<std::size_t>(ring)] ? 0 : point + 1;
+  }
+
+  int id(int ring, int p, bool lower) const
+  {
+    return firstOfRing_[lower][static_cast<std::size_t>(ring)] + p;
+  }
+
+  // From b in the outer ring to a in the inner one, to c in either.
+  void addBoth(int ringA, int a, int ringB, int b, int ringC, int c)
+  {
+    const Triangle upper = { id(ringA, a, false), id(ringB, b, false), id(ringC, c, false) };
+    mesh_.triangles.push_back(upper);
+    mesh_.triangles.push_back({ id(ringA, a, true), id(ringC, c, true), id(ringB, b, true) });
+    // The edge from a to b is that of the triangle before.
+    const Vec3& apex = mesh_.points[static_cast<std::size_t>(upper[2])];
+    for (const int other : { upper[0], upper[1] })
     {
-      const int up = firstOfFace_[0];
-      const int low = firstOfFace_[1];
-      mesh_.triangles.push_back({ up + a, up + b, up + c });
-      mesh_.triangles.push_back({ low + a, low + c, low + b });
+      longestSquared_ = std::max(
+        longestSquared_, (mesh_.points[static_cast<std::size_t>(other)] - apex).squaredNorm());
     }
   }
 
   const PlateShape& plate_;
   double radius_;
-  PlateFace face_;
-  int halfRings_;
   std::vector<PlateRim::Ring> rings_; // from the outline, ring 0, to the equator
-  int firstOfFace_[2];
-  std::vector<int> firstOfRing_[2]; // of rings 1, 2, ...; above and below
+  int halfRings_;
+  std::vector<int> sizes_;          // of the rings
+  std::vector<int> firstOfRing_[2]; // above and below; ring 0 is the outline
+  std::vector<double> innerKeys_, outerKeys_;
+  double longestSquared_ = 0.0;
   TriangleMesh mesh_;
 };
+
+std::vector<PlateRim::Ring> ringsOf(
+  const PlateRim& rim, const std::vector<int>& counts, double radius, double spacing)
+{
+  const int half = std::max(1, static_cast<int>(std::ceil(0.5 * EIGEN_PI * radius / spacing)));
+  std::vector<PlateRim::Ring> rings = { rim.outline(counts) };
+  for (int k = 1; k <= half; ++k)
+  {
+    rings.push_back(rim.curve(radius * std::sin(0.5 * EIGEN_PI * k / half), spacing));
+  }
+  return rings;
+}
 
 } // namespace
 
@@ -201,7 +241,8 @@ std::optional<TriangleMesh> meshPlate(const PlateShape& plate, double radius, do
   }
   const PlateRim rim(corners);
   const double area = 2.0 * areaOf(corners) + EIGEN_PI * radius * (rim.length() + 4.0 * radius);
-  requireModestCount(area / (0.2 * edgeLength * edgeLength), edgeLength);
+  requireModestCount(
+    area / (0.2 * edgeLength * edgeLength) + 4.0 * rim.length() / edgeLength, edgeLength);
   if (!rim.isSimple(radius))
   {
     return std::nullopt;
@@ -209,13 +250,19 @@ std::optional<TriangleMesh> meshPlate(const PlateShape& plate, double radius, do
   // Right-angled cells on the rim, as long as wide.
   for (double spacing = edgeLength / std::sqrt(2.0); spacing > 0.3 * edgeLength;)
   {
-    TriangleMesh mesh = PlateMesher(plate, rim, corners, radius, edgeLength, spacing).make();
-    const double longest = longestEdge(mesh);
+    const std::vector<int> counts = sideCounts(corners, spacing);
+    PlateMesher mesher(plate, radius, ringsOf(rim, counts, radius, spacing));
+    double longest = mesher.makeRim();
     if (longest <= edgeLength)
     {
-      return mesh;
+      const PlateFace face = meshFace(corners, counts, spacing, edgeLength);
+      longest = face.longest;
+      if (longest <= edgeLength)
+      {
+        return mesher.addFaces(face);
+      }
     }
-    spacing *= std::min(0.99, edgeLength / longest);
+    spacing *= std::min(0.985, 0.99 * edgeLength / longest);
   }
   return std::nullopt;
 }

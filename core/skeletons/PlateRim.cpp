@@ -216,8 +216,12 @@ std::vector<PlateRim::Point> PlateRim::chain(int first, double distance, double 
   } while (side != last);
   addArc(last, 0.0, 0.5);
 
-  const int count = std::max(1, static_cast<int>(std::ceil(total / spacing - 1e-9)));
+  int count = std::max(1, static_cast<int>(std::ceil(total / spacing - 1e-9)));
+  // A point in the middle, so that no two edges of neighbouring curves face each other there: their
+  // diagonal would be no mirror image of itself.
+  count += count >= 3 ? count % 2 : 0;
   std::vector<Point> points;
+  points.reserve(static_cast<std::size_t>(count) + 1);
   std::size_t k = 0;
   double before = 0.0; // length of the parts before part k
   for (int step = 0; step <= count; ++step)
