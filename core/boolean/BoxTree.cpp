@@ -70,7 +70,7 @@ std::vector<std::int32_t> alongCurve(const TriangleMesh& mesh, const BoxTree::Bo
     scale[axis] = size > 0.0 ? 1023.0 / size : 0.0;
   }
   std::vector<std::uint64_t> keys(mesh.triangles.size());
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+  const auto place = [&](std::size_t t)
   {
     const Triangle& c = mesh.triangles[t];
     const Vec3 middle = (mesh.points[std::size_t(c[0])] + mesh.points[std::size_t(c[1])] +
@@ -83,7 +83,15 @@ std::vector<std::int32_t> alongCurve(const TriangleMesh& mesh, const BoxTree::Bo
       code |= spread(std::uint32_t(std::clamp(cell, 0.0, 1023.0))) << axis;
     }
     keys[t] = std::uint64_t(code) << 32 | t;
-  }
+  };
+  parallelFor(keys.size(), kGrain,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t t = begin; t < end; ++t)
+      {
+        place(t);
+      }
+    });
   radixSort(keys);
   std::vector<std::int32_t> order(keys.size());
   std::transform(keys.begin(), keys.end(), order.begin(),
@@ -97,58 +105,6 @@ BoxTree::Box BoxTree::Box::nothing()
 {
   constexpr double kFar = std::numeric_limits<double>::infinity();
   return { { kFar, kFar, kFar }, { -kFar, -kFar, -kFar } };
-}
-
-void BoxTree::Box::extend(const Vec3& point)
-{
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    lower[axis] = std::min(lower[axis], point[int(axis)]);
-    upper[axis] = std::max(upper[axis], point[int(axis)]);
-  }
-}
-
-void BoxTree::Box::extend(const Box& other)
-{
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    lower[axis] = std::min(lower[axis], other.lower[axis]);
-    upper[axis] = std::max(upper[axis], other.upper[axis]);
-  }
-}
-
-bool BoxTree::Box::meets(const Box& other) const
-{
-  return lower[0] <= other.upper[0] && other.lower[0] <= upper[0] && lower[1] <= other.upper[1] &&
-    other.lower[1] <= upper[1] && lower[2] <= other.upper[2] && other.lower[2] <= upper[2];
-}
-
-BoxTree::Box BoxTree::Children::box(std::size_t child) const
-{
-  return { { lower[0][child], lower[1][child], lower[2][child] },
-    { upper[0][child], upper[1][child], upper[2][child] } };
-}
-
-void BoxTree::Children::set(std::size_t child, const Box& box)
-{
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    lower[axis][child] = box.lower[axis];
-    upper[axis][child] = box.upper[axis];
-  }
-}
-
-unsigned BoxTree::Children::meeting(const Box& box, std::size_t count) const
-{
-  unsigned result = 0;
-  for (std::size_t k = 0; k < count; ++k)
-  {
-    const bool meets = (lower[0][k] <= box.upper[0]) & (box.lower[0] <= upper[0][k]) &
-      (lower[1][k] <= box.upper[1]) & (box.lower[1] <= upper[1][k]) &
-      (lower[2][k] <= box.upper[2]) & (box.lower[2] <= upper[2][k]);
-    result |= unsigned(meets) << k;
-  }
-  return result;
 }
 
 BoxTree::BoxTree(const TriangleMesh& mesh) : bounds_(Box::nothing())

@@ -25,9 +25,31 @@ public:
     std::array<double, 3> upper;
 
     static Box nothing();
-    void extend(const Vec3& point);
-    void extend(const Box& other);
-    bool meets(const Box& other) const;
+
+    void extend(const Vec3& point)
+    {
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        lower[axis] = std::min(lower[axis], point[int(axis)]);
+        upper[axis] = std::max(upper[axis], point[int(axis)]);
+      }
+    }
+
+    void extend(const Box& other)
+    {
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        lower[axis] = std::min(lower[axis], other.lower[axis]);
+        upper[axis] = std::max(upper[axis], other.upper[axis]);
+      }
+    }
+
+    bool meets(const Box& other) const
+    {
+      return (lower[0] <= other.upper[0]) & (other.lower[0] <= upper[0]) &
+        (lower[1] <= other.upper[1]) & (other.lower[1] <= upper[1]) & (lower[2] <= other.upper[2]) &
+        (other.lower[2] <= upper[2]);
+    }
   };
 
   /// The boxes of the children of one node.
@@ -36,10 +58,31 @@ public:
     std::array<std::array<double, kWidth>, 3> lower;
     std::array<std::array<double, kWidth>, 3> upper;
 
-    Box box(std::size_t child) const;
-    void set(std::size_t child, const Box& box);
+    Box box(std::size_t child) const
+    {
+      return { { lower[0][child], lower[1][child], lower[2][child] },
+        { upper[0][child], upper[1][child], upper[2][child] } };
+    }
+
+    void set(std::size_t child, const Box& box)
+    {
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        lower[axis][child] = box.lower[axis];
+        upper[axis][child] = box.upper[axis];
+      }
+    }
+
     /// Bit k: child k meets the box. \pre k < count.
-    unsigned meeting(const Box& box, std::size_t count) const;
+    unsigned meeting(const Box& box, std::size_t count) const
+    {
+      unsigned result = 0;
+      for (std::size_t k = 0; k < count; ++k)
+      {
+        result |= unsigned(this->box(k).meets(box)) << k;
+      }
+      return result;
+    }
   };
 
   /// A node of level 0 is a group of up to eight triangles; one of level l > 0 has up to eight

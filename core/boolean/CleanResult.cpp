@@ -16,6 +16,8 @@ namespace
 {
 
 constexpr double kTolerance = 0x1p-46;
+// Flat triangles of a component without thickness, in which two surfaces cross all around.
+constexpr std::size_t kFewest = 4;
 
 class Cleaner
 {
@@ -30,13 +32,17 @@ public:
       largest = std::max(largest, p.cwiseAbs().maxCoeff());
     }
     tolerance_ = kTolerance * largest;
-    if (!this->markFlat())
+    const std::size_t flat = this->markFlat();
+    if (flat == 0)
     {
       return;
     }
     becomes_.resize(mesh_.points.size());
     std::iota(becomes_.begin(), becomes_.end(), 0);
-    this->dropThinComponents();
+    if (flat >= kFewest)
+    {
+      this->dropThinComponents();
+    }
     this->removeFlat();
     this->compact();
   }
@@ -76,17 +82,17 @@ private:
   }
 
   // Marks the points of flat triangles.
-  bool markFlat()
+  std::size_t markFlat()
   {
     near_.assign(mesh_.points.size(), 0);
-    bool found = false;
+    std::size_t found = 0;
     for (const Triangle& c : mesh_.triangles)
     {
       if (this->isCut(c) &&
         isFlat(mesh_.points[std::size_t(c[0])], mesh_.points[std::size_t(c[1])],
           mesh_.points[std::size_t(c[2])], tolerance_))
       {
-        found = true;
+        ++found;
         for (const std::int32_t point : c)
         {
           near_[std::size_t(point)] = 1;

@@ -107,6 +107,11 @@ public:
 
   int sign()
   {
+    const Rounded rough = this->value();
+    if (rough.isCertain())
+    {
+      return rough.value > 0.0 ? 1 : -1;
+    }
     for (int k = 0; k <= kDegree; ++k)
     {
       const int sign = this->signOf(k);
@@ -248,7 +253,10 @@ int PerturbedPredicates::order(const Site& p, const Site& q, const std::array<Si
   Volume p2(*this, second[0], second[1], second[2], p);
   Volume q2(*this, second[0], second[1], second[2], q);
   const int signs = p1.sign() * p2.sign();
-  const Rounded a = p1.value(), b = q1.value(), c = p2.value(), d = q2.value();
+  const Rounded a = p1.value();
+  const Rounded b = q1.value();
+  const Rounded c = p2.value();
+  const Rounded d = q2.value();
   const double difference = a.value * d.value - c.value * b.value;
   const double error = 2.0 * kFilter * (a.size * d.size + c.size * b.size);
   if (std::abs(difference) > error)

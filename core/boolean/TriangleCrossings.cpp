@@ -11,7 +11,9 @@ namespace hybridtree
 namespace
 {
 
-constexpr std::size_t kTasks = 1024;
+constexpr std::size_t kPairs = 1024;
+constexpr std::size_t kPairsPerTask = 16;
+constexpr double kDoubt = 6.0 * 40.0 * 0x1p-53; // six products, as the filter of the predicates
 
 struct NodePair
 {
@@ -164,12 +166,90 @@ private:
   std::array<std::array<int, 3>, 3> turn_{};
 };
 
+// A triangle in a group that is compared with another group: what can be known of it beforehand.
+struct Candidate
+{
+  std::int32_t triangle;
+  BoxTree::Box box;
+  std::array<Vec3, 3> corner;
+  Vec3 normal;
+  double size; ///< of the products that make a distance from the plane, per length
+
+  // Whether a triangle lies on one side of the plane of this one beyond doubt.
+  bool isBeside(const Candidate& other) const
+  {
+    int above = 0;
+    int below = 0;
+    for (const Vec3& p : other.corner)
+    {
+      const Vec3 d = p - corner[0];
+      const double distance = normal.dot(d);
+      const double doubt = size * d.cwiseAbs().maxCoeff();
+      above += distance > doubt;
+      below += distance < -doubt;
+    }
+    return above == 3 || below == 3;
+  }
+};
+
+// The triangles of a node, made ready once for the many nodes that it is compared with in a row.
+class CandidateCache
+{
+public:
+  struct Group
+  {
+    std::uint32_t node = 0xffffffffu;
+    std::size_t count = 0;
+    std::array<Candidate, BoxTree::kWidth> candidates;
+  };
+
+  explicit CandidateCache(const MeshOperand& operand) : operand_(operand), groups_(kGroups) {}
+
+  const Group& get(const BoxTree::Node& node)
+  {
+    Group& group = groups_[node.index % kGroups];
+    if (group.node != node.index)
+    {
+      group.node = node.index;
+      group.count = 0;
+      const BoxTree& tree = operand_.tree();
+      for (const std::int32_t* t = tree.begin(node); t != tree.end(node); ++t)
+      {
+        this->prepare(*t, group.candidates[group.count++]);
+      }
+    }
+    return group;
+  }
+
+private:
+  static constexpr std::size_t kGroups = 64;
+
+  void prepare(std::int32_t triangle, Candidate& candidate) const
+  {
+    candidate.triangle = triangle;
+    candidate.box = BoxTree::Box::nothing();
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      const std::int32_t vertex = operand_.mesh().triangles[std::size_t(triangle)][k];
+      candidate.corner[k] = operand_.mesh().points[std::size_t(vertex)];
+      candidate.box.extend(candidate.corner[k]);
+    }
+    const Vec3 u = candidate.corner[1] - candidate.corner[0];
+    const Vec3 v = candidate.corner[2] - candidate.corner[0];
+    candidate.normal = u.cross(v);
+    candidate.size = kDoubt * u.cwiseAbs().maxCoeff() * v.cwiseAbs().maxCoeff();
+  }
+
+  const MeshOperand& operand_;
+  std::vector<Group> groups_;
+};
+
 class Walk
 {
 public:
   Walk(const MeshOperand& a, const MeshOperand& b, const PerturbedPredicates& predicates,
     std::vector<Segment>& found)
-    : a_(a), b_(b), pair_(a, b, predicates), found_(found)
+    : a_(a), b_(b), first_(a), second_(b), pair_(a, b, predicates), found_(found)
   {
   }
 
@@ -184,39 +264,30 @@ public:
   }
 
 private:
-  static std::size_t gather(const MeshOperand& operand, const BoxTree::Node& node,
-    const BoxTree::Box& reach, std::array<std::int32_t, BoxTree::kWidth>& triangles,
-    std::array<BoxTree::Box, BoxTree::kWidth>& boxes)
-  {
-    std::size_t count = 0;
-    for (const std::int32_t* t = operand.tree().begin(node); t != operand.tree().end(node); ++t)
-    {
-      BoxTree::Box box = BoxTree::Box::nothing();
-      for (const std::int32_t vertex : operand.mesh().triangles[std::size_t(*t)])
-      {
-        box.extend(operand.mesh().points[std::size_t(vertex)]);
-      }
-      if (box.meets(reach))
-      {
-        triangles[count] = *t;
-        boxes[count++] = box;
-      }
-    }
-    return count;
-  }
-
   void visitTriangles(const NodePair& pair)
   {
-    std::array<std::int32_t, BoxTree::kWidth> trianglesA, trianglesB;
-    std::array<BoxTree::Box, BoxTree::kWidth> boxesA, boxesB;
-    const std::size_t countA = gather(a_, pair.a, pair.b.box, trianglesA, boxesA);
-    const std::size_t countB = countA == 0 ? 0 : gather(b_, pair.b, pair.a.box, trianglesB, boxesB);
-    Segment segment;
-    for (std::size_t i = 0; i < countA; ++i)
+    const CandidateCache::Group& first = first_.get(pair.a);
+    const CandidateCache::Group& second = second_.get(pair.b);
+    std::array<const Candidate*, BoxTree::kWidth> near;
+    std::size_t count = 0;
+    for (std::size_t j = 0; j < second.count; ++j)
     {
-      for (std::size_t j = 0; j < countB; ++j)
+      near[count] = &second.candidates[j];
+      count += near[count]->box.meets(pair.a.box);
+    }
+    Segment segment;
+    for (std::size_t i = 0; i < first.count && count > 0; ++i)
+    {
+      const Candidate& mine = first.candidates[i];
+      if (!mine.box.meets(pair.b.box))
       {
-        if (boxesA[i].meets(boxesB[j]) && pair_.cross(trianglesA[i], trianglesB[j], segment))
+        continue;
+      }
+      for (std::size_t j = 0; j < count; ++j)
+      {
+        const Candidate& other = *near[j];
+        if (mine.box.meets(other.box) && !mine.isBeside(other) && !other.isBeside(mine) &&
+          pair_.cross(mine.triangle, other.triangle, segment))
         {
           found_.push_back(segment);
         }
@@ -226,6 +297,8 @@ private:
 
   const MeshOperand& a_;
   const MeshOperand& b_;
+  CandidateCache first_;
+  CandidateCache second_;
   TrianglePair pair_;
   std::vector<Segment>& found_;
 };
@@ -238,7 +311,7 @@ std::vector<NodePair> firstPairs(const BoxTree& a, const BoxTree& b)
   {
     pairs.push_back({ a.root(), b.root() });
   }
-  for (bool opened = true; opened && pairs.size() < kTasks;)
+  for (bool opened = true; opened && pairs.size() < kPairs;)
   {
     opened = false;
     std::vector<NodePair> below;
@@ -268,14 +341,15 @@ std::vector<Segment> triangleCrossings(const MeshOperand& a, const MeshOperand& 
   const PerturbedPredicates& predicates, const Progress& progress)
 {
   const std::vector<NodePair> pairs = firstPairs(a.tree(), b.tree());
-  std::vector<std::vector<Segment>> found(pairs.size());
-  parallelFor(pairs.size(), 4,
+  std::vector<std::vector<Segment>> found((pairs.size() + kPairsPerTask - 1) / kPairsPerTask);
+  parallelFor(pairs.size(), kPairsPerTask,
     [&](std::size_t begin, std::size_t end)
     {
       progress.check();
+      Walk walk(a, b, predicates, found[begin / kPairsPerTask]);
       for (std::size_t k = begin; k < end; ++k)
       {
-        Walk(a, b, predicates, found[k]).visit(pairs[k]);
+        walk.visit(pairs[k]);
       }
     });
   std::size_t count = 0;

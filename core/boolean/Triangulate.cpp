@@ -286,8 +286,65 @@ bool Triangulator::hasRepeatedEdges() const
   return std::adjacent_find(sides.begin(), sides.end()) != sides.end();
 }
 
+// The smaller shape of the triangles left and right of a diagonal.
+double Triangulator::worstOf(
+  std::int32_t a, std::int32_t b, std::int32_t left, std::int32_t right) const
+{
+  const auto at = [&](std::int32_t p) { return (*points_)[std::size_t(p)]; };
+  return std::min(shapeOf(at(a), at(b), at(left)), shapeOf(at(b), at(a), at(right)));
+}
+
+// Flips the edge a b between t, which runs along it, and u, where both triangles become better.
+bool Triangulator::flip(std::size_t t, std::size_t u, std::int32_t a, std::int32_t b)
+{
+  const auto apex = [&](std::size_t triangle)
+  {
+    return *std::find_if(made_[triangle].begin(), made_[triangle].end(),
+      [&](std::int32_t p) { return p != a && p != b; });
+  };
+  const std::int32_t c = apex(t);
+  const std::int32_t d = apex(u);
+  if (!this->mayJoin(c, d) || this->turn(c, a, d) <= 0 || this->turn(d, b, c) <= 0 ||
+    this->worstOf(d, c, a, b) <= this->worstOf(a, b, c, d) * (1.0 + 1e-9))
+  {
+    return false;
+  }
+  made_[t] = { c, a, d };
+  made_[u] = { d, b, c };
+  return true;
+}
+
+// Flips among few triangles, by trying all.
+void Triangulator::improveSmall()
+{
+  const auto runsAlong = [&](std::size_t t, std::int32_t a, std::int32_t b)
+  {
+    const Triangle& c = made_[t];
+    return (c[0] == a && c[1] == b) || (c[1] == a && c[2] == b) || (c[2] == a && c[0] == b);
+  };
+  bool changed = true;
+  for (std::size_t round = 0; round < made_.size() && changed; ++round)
+  {
+    changed = false;
+    for (std::size_t t = 0; t < made_.size(); ++t)
+    {
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        const std::int32_t a = made_[t][k];
+        const std::int32_t b = made_[t][(k + 1) % 3];
+        std::size_t u = t + 1;
+        while (u < made_.size() && !runsAlong(u, b, a))
+        {
+          ++u;
+        }
+        changed = (u < made_.size() && this->flip(t, u, a, b)) || changed;
+      }
+    }
+  }
+}
+
 // Lawson's flips, away from edges that are sides of the polygon.
-void Triangulator::improve()
+void Triangulator::improveLarge()
 {
   std::map<Side, std::size_t> triangleOf; // per half-edge
   std::vector<Side> stack;
@@ -303,45 +360,26 @@ void Triangulator::improve()
   {
     enter(t);
   }
-  const auto apex = [&](std::size_t t, const Side& side)
-  {
-    return *std::find_if(made_[t].begin(), made_[t].end(),
-      [&](std::int32_t p) { return p != side.first && p != side.second; });
-  };
-  const auto worst = [&](std::int32_t a, std::int32_t b, std::int32_t c, std::int32_t d)
-  {
-    const auto& p = *points_;
-    return std::min(shapeOf(p[std::size_t(a)], p[std::size_t(b)], p[std::size_t(c)]),
-      shapeOf(p[std::size_t(b)], p[std::size_t(a)], p[std::size_t(d)]));
-  };
   std::size_t budget = kFlipsPerEdge * stack.size();
   while (!stack.empty() && budget-- > 0)
   {
-    const Side side = stack.back();
+    const auto [a, b] = stack.back();
     stack.pop_back();
-    const auto here = triangleOf.find(side);
-    const auto there = triangleOf.find({ side.second, side.first });
+    const auto here = triangleOf.find({ a, b });
+    const auto there = triangleOf.find({ b, a });
     if (here == triangleOf.end() || there == triangleOf.end())
     {
       continue;
     }
     const std::size_t t = here->second;
     const std::size_t u = there->second;
-    const auto [a, b] = side;
-    const std::int32_t c = apex(t, side);
-    const std::int32_t d = apex(u, side);
-    if (!this->mayJoin(c, d) || triangleOf.count({ c, d }) != 0 ||
-      triangleOf.count({ d, c }) != 0 || this->turn(c, a, d) <= 0 || this->turn(d, b, c) <= 0 ||
-      worst(d, c, a, b) <= worst(a, b, c, d) * (1.0 + 1e-9))
+    if (this->flip(t, u, a, b))
     {
-      continue;
+      triangleOf.erase(here);
+      triangleOf.erase({ b, a });
+      enter(t);
+      enter(u);
     }
-    triangleOf.erase(here);
-    triangleOf.erase({ b, a });
-    made_[t] = { c, a, d };
-    made_[u] = { d, b, c };
-    enter(t);
-    enter(u);
   }
 }
 
@@ -362,9 +400,9 @@ bool Triangulator::triangulate(const std::vector<PlanarPoint>& points,
   {
     return false;
   }
-  if (proper_ && polygon_.size() > kSmall)
+  if (proper_ && made_.size() > 1)
   {
-    this->improve();
+    polygon_.size() > kSmall ? this->improveLarge() : this->improveSmall();
   }
   triangles.insert(triangles.end(), made_.begin(), made_.end());
   return true;

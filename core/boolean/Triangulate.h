@@ -46,7 +46,10 @@ private:
   std::size_t chooseLarge(std::size_t from) const;
   std::size_t chooseAny() const;
   bool hasRepeatedEdges() const;
-  void improve();
+  double worstOf(std::int32_t a, std::int32_t b, std::int32_t left, std::int32_t right) const;
+  bool flip(std::size_t t, std::size_t u, std::int32_t a, std::int32_t b);
+  void improveSmall();
+  void improveLarge();
 
   const std::vector<PlanarPoint>* points_ = nullptr;
   Loop polygon_;
