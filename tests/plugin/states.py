@@ -29,6 +29,9 @@ def odd_value(prop, dice):
     count = prop.GetNumberOfElements()
     if prop.GetRepeatCommand():
         count = prop.GetNumberOfElementsPerCommand() * dice.randrange(4)
+    if prop.IsA("vtkSMStringVectorProperty"):  # the name of an array stands last
+        fixed = [prop.GetElement(k) for k in range(count - 1)]
+        return fixed + [dice.choice(["", "Radius", "a b", "<&\"'>", "\u00e9\u4e2d"])]
     if prop.IsA("vtkSMIntVectorProperty"):
         return [dice.choice([0, 2, 64, -1, 2**31 - 1]) for _ in range(count)]
     return [dice.choice(ODD) if dice.random() < 0.7 else dice.uniform(-10, 10) for _ in range(count)]
