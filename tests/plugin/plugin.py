@@ -28,6 +28,7 @@ PROXIES = {  # name: group. The label is the name with its words apart.
     "HybridTreeSpline": "sources",
     "HybridTreeSurfaceOfRevolution": "sources",
     "HybridTreeCurveSkeletons": "filters",
+    "HybridTreePolygonFromOutline": "filters",
     "HybridTreeMeshField": "filters",
     "HybridTreeBlend": "filters",
     "HybridTreeLocalBlend": "filters",

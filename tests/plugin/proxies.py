@@ -30,6 +30,7 @@ NAMES = {
     "HybridTreeRectangle": FIELD | {"Origin", "Point1", "Point2"},
     "HybridTreeTriangle": FIELD | {"Point1", "Point2", "Point3"},
     "HybridTreePolygon": FIELD | {"Points"},
+    "HybridTreePolygonFromOutline": FIELD | {"Input"},
     "HybridTreeEllipsoid": FIELD | {"Center", "Radii", "Rotation"},
     "HybridTreeSpline": FIELD | {"Points", "Kind", "Closed", "LevelOfDetail"},
     "HybridTreeSurfaceOfRevolution": FIELD
