@@ -219,12 +219,8 @@ void table3(int threads, int rounds)
 
 double best(const std::function<void()>& work)
 {
-  double least = seconds(work);
-  for (int k = 0; k < 2; ++k)
-  {
-    least = std::min(least, seconds(work));
-  }
-  return least;
+  const double least = seconds(work);
+  return std::min(least, seconds(work));
 }
 
 void pairs(const char* file)

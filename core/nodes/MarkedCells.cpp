@@ -13,9 +13,10 @@ namespace
 
 constexpr double kBytesPerBrick = 20000.0;
 
-// A surface is looked for down to blocks of this many cells, and one cell beyond: meshes are off
-// the surfaces they stand for.
-constexpr int kSurfaceBlock = 4;
+// A surface is looked for down to blocks of this many cells, and a bit beyond: meshes are off the
+// surfaces they stand for.
+constexpr int kSurfaceBlock = 2;
+constexpr double kSurfaceMargin = 0.5; // cells
 
 // How far off T the field must be to tell that no surface is there.
 constexpr double kRangeSlack = 1e-9;
@@ -132,7 +133,7 @@ private:
   Answer look(Block& block) const
   {
     const bool forSurface = block.side >= kSurfaceBlock;
-    const Box3 box = this->boxOf(block, forSurface ? 1.0 : 0.0);
+    const Box3 box = this->boxOf(block, forSurface ? kSurfaceMargin : 0.0);
     std::vector<int> possible;
     std::vector<int> certain;
     std::vector<Interval> ranges;
@@ -218,7 +219,7 @@ private:
   /// Specialises the terms to a block.
   void narrow(Block& block)
   {
-    const Box3 box = this->boxOf(block, 1.0);
+    const Box3 box = this->boxOf(block, kSurfaceMargin);
     std::vector<Reach> left;
     for (Reach& reach : block.reach)
     {

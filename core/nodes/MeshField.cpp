@@ -107,6 +107,11 @@ MeshField::MeshField(
   {
     throw InvalidGeometry("The mesh has no triangles: a mesh leaf needs a surface.");
   }
+  ownBounds_ = mesh_->bounds();
+  for (const Vec3& point : mesh_->points)
+  {
+    bounds_.extend(identity_ ? point : Vec3(map_ * point));
+  }
 }
 
 MeshField::~MeshField() = default;
@@ -259,20 +264,8 @@ void MeshField::nearestTriangle(
 
 Box3 MeshField::influenceBounds() const
 {
-  Box3 box = mesh_->bounds();
-  box.min().array() -= influenceRadius_;
-  box.max().array() += influenceRadius_;
-  return transformed(box, map_);
-}
-
-Box3 MeshField::meshBounds() const
-{
-  Box3 box;
-  for (const Vec3& point : mesh_->points)
-  {
-    box.extend(identity_ ? point : Vec3(map_ * point));
-  }
-  return box;
+  const Vec3 reach = Vec3::Constant(influenceRadius_);
+  return transformed(Box3(Vec3(ownBounds_.min() - reach), Vec3(ownBounds_.max() + reach)), map_);
 }
 
 } // namespace hybridtree

@@ -241,7 +241,7 @@ void CellSet::fillDiagonals()
             first[u] += 1;
             Index3 second = cell;
             second[v] += step;
-            if (this->contains(across) && !this->contains(first) && !this->contains(second))
+            if (!this->contains(first) && !this->contains(second) && this->contains(across))
             {
               added.push_back(first);
             }

@@ -16,11 +16,11 @@ namespace
 using Index = MeshLinks::Index;
 
 constexpr int kMaxRounds = 8;
-constexpr int kMoves = 3;
+constexpr int kMoves = 2;
 constexpr double kLongestMove = 0.3; // cells, along the surface,
 constexpr double kMoveReach = 0.1;   // and back onto it
 constexpr double kSmooth = 0.9;      // cosine between the normals around a point that may move
-constexpr double kBadShape = 0.9397; // cosine of 20 degrees
+constexpr double kBadShape = 0.9613; // cosine of 16 degrees
 constexpr double kSliver = 0.9848;   // cosine of 10 degrees: below, a triangle's normal says little
 constexpr double kWorthIt = 0.002;   // gain in that cosine
 constexpr double kMostBent = 0.15;   // cells, across the four points of a flipped edge
@@ -64,6 +64,7 @@ public:
     , triangles_(this->gather())
     , links_(triangles_, points_.size())
     , touched_(links_.triangleCount(), false)
+    , waiting_(links_.triangleCount(), true)
   {
   }
 
@@ -124,13 +125,27 @@ private:
       bool any = false;
       for (std::size_t t = 0; t < links_.triangleCount(); ++t)
       {
-        any = (!links_.isRemoved(t) && this->shape(t) > kBadShape && this->mend(t)) || any;
+        if (waiting_[t])
+        {
+          waiting_[t] = false;
+          any = (!links_.isRemoved(t) && this->shape(t) > kBadShape && this->mend(t)) || any;
+        }
       }
       if (!any)
       {
         return;
       }
     }
+  }
+
+  /// The triangles around a point have changed, or what is around them has.
+  void awaken(Index v)
+  {
+    if (links_.isLocked(v))
+    {
+      return;
+    }
+    links_.forEachLeaving(v, [&](Index h) { waiting_[h / 3] = true; });
   }
 
   /// Moves own points of bad triangles along the surface towards the middle of their neighbours.
@@ -231,7 +246,12 @@ private:
     {
       mesh_.vertexOrigin[points_[v]] = {};
     }
-    links_.forEachLeaving(v, [&](Index h) { touched_[h / 3] = true; });
+    links_.forEachLeaving(v,
+      [&](Index h)
+      {
+        touched_[h / 3] = true;
+        waiting_[h / 3] = true;
+      });
     return true;
   }
 
@@ -270,16 +290,31 @@ private:
     {
       return false;
     }
+    const Index from = links_.from(chosen);
+    const Index to = links_.to(chosen);
     if (flip)
     {
+      const Index twin = links_.twin(chosen);
       touched_[chosen / 3] = true;
-      touched_[links_.twin(chosen) / 3] = true;
+      touched_[twin / 3] = true;
+      waiting_[chosen / 3] = true;
+      waiting_[twin / 3] = true;
+      const Index ends[2] = { links_.opposite(chosen), links_.opposite(twin) };
       links_.flip(chosen);
+      for (const Index v : { from, to, ends[0], ends[1] })
+      {
+        this->awaken(v);
+      }
       return true;
     }
-    links_.forEachLeaving(
-      links_.from(chosen), [&](Index leaving) { touched_[leaving / 3] = true; });
+    links_.forEachLeaving(from,
+      [&](Index leaving)
+      {
+        touched_[leaving / 3] = true;
+        waiting_[leaving / 3] = true;
+      });
     links_.collapse(chosen);
+    this->awaken(to);
     return true;
   }
 
@@ -441,6 +476,7 @@ private:
   const std::vector<Triangle> triangles_; ///< as they were
   MeshLinks links_;
   std::vector<bool> touched_;
+  std::vector<bool> waiting_; ///< to be looked at
 };
 
 } // namespace
