@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -126,10 +127,14 @@ public:
   /// Exactly.
   const Expansion& coefficient(int k)
   {
-    std::optional<Expansion>& kept = coefficients_[std::size_t(k)];
+    if (!coefficients_)
+    {
+      coefficients_ = std::make_unique<Coefficients>();
+    }
+    std::optional<Expansion>& kept = (*coefficients_)[std::size_t(k)];
     if (!kept)
     {
-      this->perturb();
+      this->perturb(k);
       Expansion sum;
       this->forEachTerm(k,
         [&](int i, int j, int l)
@@ -142,7 +147,7 @@ public:
 private:
   int signOf(int k)
   {
-    this->perturb();
+    this->perturb(k);
     Rounded sum;
     this->forEachTerm(k,
       [&](int i, int j, int l)
@@ -161,23 +166,31 @@ private:
     return this->coefficient(k).sign();
   }
 
-  void perturb()
+  // Makes the rows that the coefficient of e^k needs. Few need those of the random vectors.
+  void perturb(int k)
   {
-    if (perturbed_)
+    if (!directed_)
     {
-      return;
+      directed_ = true;
+      for (std::size_t row = 0; row < 3; ++row)
+      {
+        const Site& site = *site_[row + 1];
+        second_[row] = site.second;
+        rows_[row][1] =
+          site.second && site.index >= 0 ? predicates_.direction_(site.index) : Vec3::Zero();
+        same_[row] = site_[1 + row]->position == site_[1 + (row + 1) % 3]->position;
+      }
     }
-    perturbed_ = true;
-    const Vec3 base = this->random(*site_[0]);
-    for (std::size_t row = 0; row < 3; ++row)
+    if (k > 1 && !perturbed_)
     {
-      const Site& site = *site_[row + 1];
-      second_[row] = site.second;
-      rows_[row][1] =
-        site.second && site.index >= 0 ? predicates_.direction_(site.index) : Vec3::Zero();
-      rows_[row][2] = site.second ? this->random(site) : Vec3::Zero();
-      rows_[row][3] = site.second ? Vec3(-base) : Vec3(this->random(site) - base);
-      same_[row] = site_[1 + row]->position == site_[1 + (row + 1) % 3]->position;
+      perturbed_ = true;
+      const Vec3 base = this->random(*site_[0]);
+      for (std::size_t row = 0; row < 3; ++row)
+      {
+        const Site& site = *site_[row + 1];
+        rows_[row][2] = site.second ? this->random(site) : Vec3::Zero();
+        rows_[row][3] = site.second ? Vec3(-base) : Vec3(this->random(site) - base);
+      }
     }
   }
 
@@ -193,12 +206,12 @@ private:
   {
     const auto absent = [&](std::size_t row, int order)
     { return !second_[row] && (order == 1 || order == 2); };
-    for (int i = 0; i < kOrders; ++i)
+    for (int i = 0; i <= std::min(k, kOrders - 1); ++i)
     {
-      for (int j = 0; j < kOrders; ++j)
+      for (int j = 0; j <= std::min(k - i, kOrders - 1); ++j)
       {
         const int l = k - i - j;
-        if (l < 0 || l >= kOrders || absent(0, i) || absent(1, j) || absent(2, l) ||
+        if (l >= kOrders || absent(0, i) || absent(1, j) || absent(2, l) ||
           (same_[0] && i == 0 && j == 0) || (same_[1] && j == 0 && l == 0) ||
           (same_[2] && l == 0 && i == 0))
         {
@@ -228,8 +241,10 @@ private:
   std::array<std::array<Vec3, kOrders>, 3> rows_; // per vertex but the first, per power of e
   std::array<bool, 3> second_{};
   std::array<bool, 3> same_{};
+  bool directed_ = false;
   bool perturbed_ = false;
-  std::array<std::optional<Expansion>, kDegree + 1> coefficients_;
+  using Coefficients = std::array<std::optional<Expansion>, kDegree + 1>;
+  std::unique_ptr<Coefficients> coefficients_;
 };
 
 int PerturbedPredicates::side(const Site& a, const Site& b, const Site& c, const Site& d) const
