@@ -19,6 +19,7 @@ constexpr double kClearAngle = 1e-3;
 constexpr double kClearDistance = 1e-9;
 constexpr double kNoDirection = 1e-13; // relative to the size: the offset is all rounding
 constexpr double kSliver = 1e-6;       // height over length
+constexpr double kFold = 0.25;         // cosine between the normals of a vertex and of its faces
 
 Vec3 unit(const Vec3& v)
 {
@@ -270,6 +271,24 @@ void MeshSide::makeVertexNormals()
   {
     normal = unit(normal);
   }
+  this->doubtFolds();
+}
+
+// Where a surface crosses itself it is folded hard, or has been: beside a blade's edge whose two
+// faces have passed through each other the nearest point is seen from the wrong side.
+void MeshSide::doubtFolds()
+{
+  for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
+  {
+    const Vec3 normal = unit(areaNormal(mesh_, t));
+    for (const std::int32_t vertex : mesh_.triangles[t])
+    {
+      if (normal.dot(vertexNormals_[std::size_t(vertex)]) < kFold)
+      {
+        doubtful_[std::size_t(vertex)] = 1;
+      }
+    }
+  }
 }
 
 Vec3 MeshSide::pseudonormal(std::int32_t triangle, int feature) const
@@ -306,6 +325,10 @@ int MeshSide::side(const Vec3& p, std::int32_t triangle, const NearestOnTriangle
   if (!this->isClosed())
   {
     return nearest.squaredDistance == 0.0 ? 0 : winding_->at(p) > 0.5 ? 1 : -1;
+  }
+  if (!bounds_.contains(p))
+  {
+    return -1;
   }
   const Triangle& corner = mesh_.triangles[std::size_t(triangle)];
   const bool doubtful = doubtful_[std::size_t(corner[0])] || doubtful_[std::size_t(corner[1])] ||

@@ -20,7 +20,8 @@ namespace hybridtree
 /// (where a nearest point says nothing of the other shells), by the crossings of a ray, out less
 /// in, with exact orientation predicates: inside is where more shells are around than cavities.
 /// Others: by the winding number, which is the same for closed meshes.
-/// A single shell that crosses itself counts as it is seen from its nearest point.
+/// A single shell that crosses itself counts as it is seen from its nearest point, but by the ray
+/// beside sharp folds, where it usually does; outside of its bounds is outside.
 class MeshSide
 {
 public:
@@ -61,6 +62,7 @@ public:
 
 private:
   void makeVertexNormals();
+  void doubtFolds();
   bool shellsMayOverlap() const;
   int sideByRay(const Vec3& p) const;
 
@@ -69,7 +71,7 @@ private:
   HalfEdges edges_;
   Box3 bounds_;
   std::vector<Vec3> vertexNormals_;
-  std::vector<char> doubtful_; // vertices of slivers, whose normals say little
+  std::vector<char> doubtful_; // vertices of slivers and folds, whose normals say little
   bool overlapping_ = false;   // boxes of two shells meet
   double borderLength_ = 0.0;
   std::unique_ptr<const WindingNumber> winding_; // null for a closed mesh
