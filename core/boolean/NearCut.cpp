@@ -17,6 +17,7 @@ namespace
 
 constexpr int kRounds = 6;
 constexpr double kTurn = 0.3;  // cosine of how far a triangle may turn from its surface
+constexpr double kShort = 0.3; // of the longest side: small triangles are to stay where all are
 constexpr double kReach = 4.0; // edges up to here, in distances, are collapsed at flat triangles
 
 } // namespace
@@ -76,18 +77,19 @@ private:
       return false;
     }
     Index longest = 3 * Index(t);
-    for (Index k = 0; k < 3; ++k)
+    for (Index h = longest + 1; h < 3 * Index(t) + 3; ++h)
     {
-      const Index h = 3 * Index(t) + k;
-      if (this->length(h) < owner_.distance_ &&
-        (this->collapse(h) || this->collapse(links_.twin(h))))
+      longest = this->length(h) > this->length(longest) ? h : longest;
+    }
+    const double near = std::min(owner_.distance_, kShort * this->length(longest));
+    for (Index h = 3 * Index(t); h < 3 * Index(t) + 3; ++h)
+    {
+      if (this->length(h) < near && (this->collapse(h) || this->collapse(links_.twin(h))))
       {
         return true;
       }
-      longest = this->length(h) > this->length(longest) ? h : longest;
     }
-    return (this->height(c) < 0.5 * owner_.distance_ || !this->agrees(Index(t), c)) &&
-      this->flatten(longest);
+    return (this->height(c) < 0.5 * near || !this->agrees(Index(t), c)) && this->flatten(longest);
   }
 
   Vec3 normal(const Triangle& c) const

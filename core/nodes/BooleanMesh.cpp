@@ -8,7 +8,6 @@
 #include "core/nodes/LeafPlace.h"
 
 #include <array>
-#include <cstring>
 
 namespace hybridtree
 {
@@ -27,12 +26,6 @@ MeshOperation operationOf(BooleanOperation operation)
       break;
   }
   return MeshOperation::Difference;
-}
-
-// Whether the surface of a node is its mesh, so that the cut is where it should be.
-bool isMesh(const Node& node)
-{
-  return std::strcmp(node.kind(), "mesh") == 0;
 }
 
 // Weights of the corners of a triangle at a point of its plane.
@@ -279,10 +272,7 @@ BooleanMesh booleanMesh(BooleanOperation operation, const Node& a, const Node& b
   {
     return made;
   }
-  if (!isMesh(a) || !isMesh(b))
-  {
-    projectCut(operation, { &a, &b }, { meshA.get(), meshB.get() }, edgeLength, result);
-  }
+  projectCut(operation, { &a, &b }, { meshA.get(), meshB.get() }, edgeLength, result);
   Attributes({ meshA.get(), meshB.get() }, a, b, operation == BooleanOperation::Difference, result)
     .fill();
   for (const std::vector<std::int32_t>& curve : result.curves)

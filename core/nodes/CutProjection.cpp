@@ -285,6 +285,12 @@ void projectCut(BooleanOperation operation, const std::array<const Node*, 2>& no
     {
       start.push_back(cut.position);
     }
+    const Misses misses = missesAt(*nodes[0], *nodes[1], start);
+    if (std::none_of(misses.begin(), misses.end(),
+          [&](const std::array<Miss, 2>& miss) { return worstOf(miss) > kOnSurface * edgeLength; }))
+    {
+      return; // the surfaces are their meshes
+    }
     const std::vector<Vec3> moved = projected(operation, *nodes[0], *nodes[1], start, edgeLength);
     std::copy(
       moved.begin(), moved.end(), result.mesh.points.begin() + std::ptrdiff_t(result.firstCut));
