@@ -41,8 +41,8 @@ def main(source, target):
         out.append(f'<text x="{LEFT - 8}" y="{level + 4:.1f}" text-anchor="end">{10.0 ** power:g} ms</text>')
     out.append(f'<text x="{(LEFT + WIDTH - RIGHT) / 2}" y="{HEIGHT - 15}" text-anchor="middle">overlap ratio of two balls</text>')
     for number, (name, label, colour) in enumerate(SERIES):
-        for row in rows:
-            out.append(f'<circle cx="{x(row["ratio"]):.1f}" cy="{y(1e3 * row[name]):.1f}" r="1.3" fill="{colour}" fill-opacity="0.35"/>')
+        dots = "".join(f"M{x(row['ratio']):.0f} {y(1e3 * row[name]):.1f}h0" for row in rows)
+        out.append(f'<path d="{dots}" stroke="{colour}" stroke-width="2.5" stroke-linecap="round" stroke-opacity="0.3"/>')
         line = []
         for step in range(20):
             near = [1e3 * row[name] for row in rows if step / 20 <= row["ratio"] <= (step + 1) / 20]

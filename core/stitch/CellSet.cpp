@@ -219,35 +219,99 @@ CellSet CellSet::grown() const
   return result;
 }
 
+namespace
+{
+
+constexpr int kHalo = kBrickSide + 2;
+
+/// The cells of a brick and of those one cell around it: bit x + 1 of row (y + 1, z + 1).
+struct Halo
+{
+  std::uint16_t rows[kHalo][kHalo] = {};
+
+  Halo(const CellSet& cells, const Index3& brick)
+  {
+    const BrickBits* near[27];
+    for (int n = 0; n < 27; ++n)
+    {
+      near[n] =
+        cells.find({ brick[0] + n % 3 - 1, brick[1] + n / 3 % 3 - 1, brick[2] + n / 9 - 1 });
+    }
+    for (int z = -1; z <= kBrickSide; ++z)
+    {
+      for (int y = -1; y <= kBrickSide; ++y)
+      {
+        const int first = 3 * ((y + kBrickSide) / kBrickSide + 3 * ((z + kBrickSide) / kBrickSide));
+        const auto row = [&](int nx) -> unsigned
+        {
+          const BrickBits* bits = near[first + nx];
+          return bits ? static_cast<unsigned>((*bits)[(z + kBrickSide) % kBrickSide] >>
+                            (kBrickSide * ((y + kBrickSide) % kBrickSide)) &
+                          0xffu)
+                      : 0u;
+        };
+        rows[z + 1][y + 1] =
+          static_cast<std::uint16_t>(row(0) >> (kBrickSide - 1) | row(1) << 1 | (row(2) & 1u) << 9);
+      }
+    }
+  }
+
+  bool has(const std::array<int, 3>& cell) const
+  {
+    return (rows[cell[2] + 1][cell[1] + 1] >> (cell[0] + 1) & 1u) != 0;
+  }
+};
+
+/// Visits the contacts of a brick's cells across edges, without a third cell: with a cell that
+/// mends them. Two of the four diagonals; the others are seen from the other cell.
+template <typename Visit>
+void forEachDiagonal(const CellSet& cells, const CellSet::Brick& brick, Visit&& visit)
+{
+  const Halo halo(cells, brick.index);
+  for (int n = 0; n < kBrickPoints; ++n)
+  {
+    const std::array<int, 3> cell{ n % kBrickSide, n / kBrickSide % kBrickSide,
+      n / (kBrickSide * kBrickSide) };
+    if (!halo.has(cell))
+    {
+      continue;
+    }
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      std::array<int, 3> first = cell;
+      first[(axis + 1) % 3] += 1;
+      if (halo.has(first))
+      {
+        continue;
+      }
+      for (const int step : { -1, 1 })
+      {
+        std::array<int, 3> second = cell;
+        std::array<int, 3> across = first;
+        second[(axis + 2) % 3] += step;
+        across[(axis + 2) % 3] += step;
+        if (halo.has(across) && !halo.has(second))
+        {
+          visit(Index3{ kBrickSide * brick.index[0] + first[0],
+            kBrickSide * brick.index[1] + first[1], kBrickSide * brick.index[2] + first[2] });
+        }
+      }
+    }
+  }
+}
+
+} // namespace
+
 void CellSet::fillDiagonals()
 {
   std::vector<Index3> added;
   do
   {
     added.clear();
-    this->forEach(
-      [&](const Index3& cell)
-      {
-        for (int axis = 0; axis < 3; ++axis)
-        {
-          const int u = (axis + 1) % 3;
-          const int v = (axis + 2) % 3;
-          for (const int step : { -1, 1 }) // the other two diagonals are seen from the other cell
-          {
-            Index3 across = cell;
-            across[u] += 1;
-            across[v] += step;
-            Index3 first = cell;
-            first[u] += 1;
-            Index3 second = cell;
-            second[v] += step;
-            if (!this->contains(first) && !this->contains(second) && this->contains(across))
-            {
-              added.push_back(first);
-            }
-          }
-        }
-      });
+    for (const Brick& brick : bricks_)
+    {
+      forEachDiagonal(*this, brick, [&](const Index3& cell) { added.push_back(cell); });
+    }
     for (const Index3& cell : added)
     {
       this->insert(cell);

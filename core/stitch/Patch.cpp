@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <unordered_set>
 
 namespace hybridtree
 {
@@ -41,8 +42,7 @@ class PatchMaker
 public:
   PatchMaker(const FieldSource& field, const CellSet& cells, const CellGrid& grid,
     const PatchBorder& border, const Progress& progress)
-    : cells_(cells)
-    , border_(border)
+    : border_(border)
     , progress_(progress)
     , lattice_(PatchMaker::latticeOf(cells, grid))
     , bricks_(field, cells, lattice_, ProgressPart(progress, 0.0, 0.5))
@@ -51,10 +51,18 @@ public:
     for (const BorderSegment& segment : border.segments)
     {
       segments_[segment.cell].push_back(segment);
+      busy_.insert(segment.cell);
     }
     for (const BorderCrossing& crossing : border.crossings)
     {
       facesOf_[crossing.vertex] = { crossing.low, crossing.axis };
+      for (int n = 0; n < 4; ++n)
+      {
+        Index3 cell = crossing.low;
+        cell[(crossing.axis + 1) % 3] -= n & 1;
+        cell[(crossing.axis + 2) % 3] -= n >> 1;
+        busy_.insert(cell);
+      }
     }
   }
 
@@ -292,16 +300,28 @@ private:
       {
         const int n = PatchMaker::indexOf(word & (~word + 1));
         const std::array<int, 3> cell{ n % kBrickSide, n / kBrickSide, z };
+        const unsigned signs = this->caseOf(brick, cell);
+        const bool hasLine = busy_.count(PatchMaker::indexOf(brick, cell)) != 0;
+        if ((signs == 0 || signs == 0xff) && !hasLine)
+        {
+          continue; // no surface
+        }
         if (this->isInner(brick, cell))
         {
-          this->fillInnerCell(brick, cell, work);
+          this->fillInnerCell(brick, cell, signs, work);
         }
         else
         {
-          this->fillBorderCell(brick, cell, work);
+          this->fillBorderCell(brick, cell, signs, work);
         }
       }
     }
+  }
+
+  static Index3 indexOf(const PatchBrick& brick, const std::array<int, 3>& cell)
+  {
+    return { kBrickSide * brick.index[0] + cell[0], kBrickSide * brick.index[1] + cell[1],
+      kBrickSide * brick.index[2] + cell[2] };
   }
 
   static std::array<int, 3> lowOf(const std::array<int, 3>& cell, unsigned edge)
@@ -352,9 +372,10 @@ private:
                                         : patch_.points[vertex - border_.vertexCount];
   }
 
-  void fillInnerCell(const PatchBrick& brick, const std::array<int, 3>& cell, BrickWork& work)
+  void fillInnerCell(
+    const PatchBrick& brick, const std::array<int, 3>& cell, unsigned signs, BrickWork& work)
   {
-    const MarchingCubesTable::Case& way = MarchingCubesTable::instance()[this->caseOf(brick, cell)];
+    const MarchingCubesTable::Case& way = MarchingCubesTable::instance()[signs];
     for (unsigned n = 0; n < way.loopCount; ++n)
     {
       const MarchingCubesTable::Loop& loop = way.loops[n];
@@ -380,19 +401,19 @@ private:
     }
   }
 
-  void fillBorderCell(const PatchBrick& brick, const std::array<int, 3>& cell, BrickWork& work)
+  void fillBorderCell(
+    const PatchBrick& brick, const std::array<int, 3>& cell, unsigned signs, BrickWork& work)
   {
-    const Index3 index{ kBrickSide * brick.index[0] + cell[0],
-      kBrickSide * brick.index[1] + cell[1], kBrickSide * brick.index[2] + cell[2] };
+    const Index3 index = PatchMaker::indexOf(brick, cell);
     std::vector<CellSegment> segments;
     this->addBorderSegments(index, segments);
-    const unsigned signs = this->caseOf(brick, cell);
     bool good = true;
     for (unsigned face = 0; face < 6; ++face)
     {
-      Index3 beyond = index;
+      std::array<int, 3> beyond = cell;
       beyond[face / 2] += (face & 1u) != 0 ? 1 : -1;
-      if (cells_.contains(beyond))
+      const auto place = bricks_.locate(brick, beyond[0], beyond[1], beyond[2]);
+      if (place.brick && PatchBrick::has(place.brick->cells, place.x, place.y, place.z))
       {
         good = this->addContour(brick, cell, index, face, signs, segments) && good;
       }
@@ -539,7 +560,6 @@ private:
     }
   }
 
-  const CellSet& cells_;
   const PatchBorder& border_;
   const Progress& progress_;
   const Lattice lattice_;
@@ -547,6 +567,7 @@ private:
   BorderCrossings crossings_;
   std::unordered_map<Index3, std::vector<BorderSegment>, Index3Hash> segments_;
   std::unordered_map<std::int32_t, LatticeEdge> facesOf_;
+  std::unordered_set<Index3, Index3Hash> busy_;      ///< cells that the line from outside touches
   std::vector<std::vector<std::int32_t>> overruled_; ///< per brick: vertices off the surface
   Patch patch_;
 };
