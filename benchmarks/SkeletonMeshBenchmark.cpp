@@ -27,7 +27,9 @@
 #include "core/skeletons/Point.h"
 #include "core/skeletons/Polygon.h"
 #include "core/skeletons/Rectangle.h"
+#include "core/skeletons/Revolution.h"
 #include "core/skeletons/Segment.h"
+#include "core/skeletons/Spline.h"
 #include "core/skeletons/Triangle.h"
 
 #include <vtkFlyingEdges3D.h>
@@ -186,6 +188,18 @@ std::vector<Shape> shapes()
     shapeOf("triangle", std::make_shared<TriangleSkeleton>(zero, Vec3(2, 0, 0), Vec3(0.4, 1, 0))));
   all.push_back(shapeOf("polygon", std::make_shared<PolygonSkeleton>(letterL)));
   all.push_back(shapeOf("ellipsoid", std::make_shared<EllipsoidSkeleton>(zero, Vec3(1, 0.6, 0.4))));
+  SplineCurve wave;
+  wave.points = { Vec3(0, 0, 0), Vec3(1, 0.8, 0), Vec3(2, 0, 0.8), Vec3(3, 0.8, 0) };
+  all.push_back(shapeOf("spline", std::make_shared<SplineSkeleton>(wave)));
+  // As each line of Curve Skeletons is one.
+  wave.radii = { 0.2, 0.0, 0.1, 0.0 };
+  all.push_back(shapeOf("spline with radii", std::make_shared<SplineSkeleton>(wave)));
+  RevolutionShape vase;
+  vase.profile.points = { Vec3(0.6, -1, 0), Vec3(0.9, -0.4, 0), Vec3(0.5, 0.4, 0),
+    Vec3(0.6, 1, 0) };
+  all.push_back(shapeOf("surface of revolution", std::make_shared<RevolutionSkeleton>(vase)));
+  vase.solid = true;
+  all.push_back(shapeOf("solid of revolution", std::make_shared<RevolutionSkeleton>(vase)));
   return all;
 }
 

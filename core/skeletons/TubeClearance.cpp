@@ -109,7 +109,7 @@ private:
   }
 
   // The circle in which the ball at t touches the envelope moves forward all around.
-  bool envelopeIsRegular(const CubicSpan& span, double t) const
+  bool envelopeIsRegular(const CubicSpan& span, double t)
   {
     const ThickPoint first = span.slope(t);
     const ThickPoint second = span.bend(t);
@@ -121,6 +121,7 @@ private:
     const double r = radius_ + span.at(t).radius;
     const double curvature = first.at.cross(second.at).norm() / (speed * speed * speed);
     const double slope = first.radius / speed;
+    lean_ = std::max(lean_, std::asin(std::min(1.0, std::abs(slope))));
     const double change =
       (second.radius - slope * first.at.dot(second.at) / speed) / (speed * speed);
     return std::abs(slope) < 0.98 &&
@@ -175,18 +176,20 @@ private:
 
   bool partsAreApart() const
   {
+    // Normals of a varying radius lean, and so do the chords.
+    const double least = kPi - 2.0 * lean_;
     for (std::size_t i = 0; i < pieces_.size(); ++i)
     {
       const Piece& p = pieces_[i];
-      // The last of those that the curve reaches by turning less than pi.
+      // The last of those that the curve reaches by turning less.
       auto j = static_cast<std::size_t>(
         std::lower_bound(pieces_.begin() + static_cast<std::ptrdiff_t>(i), pieces_.end(),
-          p.turnFrom + kPi, [](const Piece& q, double turn) { return q.turnTo < turn; }) -
+          p.turnFrom + least, [](const Piece& q, double turn) { return q.turnTo < turn; }) -
         pieces_.begin());
       for (; j < pieces_.size(); ++j)
       {
         const Piece& q = pieces_[j];
-        if (closed_ && turned_ - (q.turnFrom - p.turnTo) < kPi)
+        if (closed_ && turned_ - (q.turnFrom - p.turnTo) < least)
         {
           break; // from here on they are near the other way around
         }
@@ -210,6 +213,7 @@ private:
   double radius_;
   double longest_ = 0.0;
   double turned_ = 0.0;
+  double lean_ = 0.0; // of normals out of the plane across the curve, at most
   std::vector<Piece> pieces_;
 };
 
