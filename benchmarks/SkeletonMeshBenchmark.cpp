@@ -189,7 +189,7 @@ std::vector<Shape> shapes()
   all.push_back(shapeOf("polygon", std::make_shared<PolygonSkeleton>(letterL)));
   all.push_back(shapeOf("ellipsoid", std::make_shared<EllipsoidSkeleton>(zero, Vec3(1, 0.6, 0.4))));
   SplineCurve wave;
-  wave.points = { Vec3(0, 0, 0), Vec3(1, 0.8, 0), Vec3(2, 0, 0.8), Vec3(3, 0.8, 0) };
+  wave.points = { Vec3(0, 0, 0), Vec3(2, 1, 0), Vec3(4, 0, 1), Vec3(6, 1, 0) };
   all.push_back(shapeOf("spline", std::make_shared<SplineSkeleton>(wave)));
   // As each line of Curve Skeletons is one.
   wave.radii = { 0.2, 0.0, 0.1, 0.0 };

@@ -3,9 +3,10 @@
 // beside what VTK offers for the same field on the same lattice:
 //   vtkSampleFunction + vtkFlyingEdges3D, and
 //   a dense grid filled primitive by primitive inside their influence boxes + vtkFlyingEdges3D.
-// All on one thread, in turns, medians; then ours on two threads. VTK's vertices are left at linear
-// interpolation with normals by differences on the grid, ours lie on the surface with exact
+// All on one thread, ours on two as well; in random order, medians. VTK's vertices are left at
+// linear interpolation with normals by differences on the grid, ours lie on the surface with exact
 // normals.
+#include "benchmarks/support/RatioReporter.h"
 #include "core/base/Parallel.h"
 #include "core/mesh/MeshChecks.h"
 #include "core/nodes/Blend.h"
@@ -22,11 +23,11 @@
 #include <vtkSMPTools.h>
 #include <vtkSampleFunction.h>
 
+#include <benchmark/benchmark.h>
+
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <fstream>
 #include <functional>
 #include <malloc.h>
@@ -246,24 +247,27 @@ double peakMemory(const std::function<void()>& body)
   return read("VmHWM") - before;
 }
 
-double seconds(const std::function<void()>& body)
+void add(benchmarks::RatioReporter& reporter, const char* name, const std::function<void()>& body)
 {
-  const auto begin = std::chrono::steady_clock::now();
-  body();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
-
-double median(std::vector<double> values)
-{
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
+  reporter.list(name);
+  benchmark::RegisterBenchmark(name,
+    [body](benchmark::State& state)
+    {
+      for (auto _ : state)
+      {
+        body();
+      }
+    })
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
 }
 
 } // namespace
 
 int main(int argc, char** argv)
 {
-  const int rounds = argc > 1 ? std::max(1, std::atoi(argv[1])) : 15;
+  benchmarks::initializeInterleaved(argc, argv, 9);
   vtkSMPTools::Initialize(1);
   const std::vector<Segment> segments = snake();
   const std::size_t before = mallinfo2().uordblks;
@@ -275,45 +279,25 @@ int main(int argc, char** argv)
   const auto ours = [&](int threads)
   {
     setThreadCount(threads);
-    return seconds([&] { mesh = latticeMesh(*node, kCell); });
+    mesh = latticeMesh(*node, kCell);
   };
-  const double ourMemory = peakMemory([&] { ours(1); });
-  const double gridMemory = peakMemory([&] { filled(segments, grid); });
   vtkIdType vtkTriangles = 0;
-  std::vector<double> one;
-  std::vector<double> two;
-  std::vector<double> oneCpu;
-  std::vector<double> twoCpu;
-  std::vector<double> fill;
-  std::vector<double> sample;
-  for (int round = 0; round < rounds; ++round)
-  {
-    std::clock_t start = std::clock();
-    one.push_back(ours(1));
-    oneCpu.push_back(static_cast<double>(std::clock() - start));
-    start = std::clock();
-    two.push_back(ours(2));
-    twoCpu.push_back(static_cast<double>(std::clock() - start));
-    fill.push_back(seconds([&] { vtkTriangles = filled(segments, grid); }));
-    if (round % 5 == 0)
-    {
-      sample.push_back(seconds([&] { sampled(segments, grid); }));
-    }
-  }
+  const double ourMemory = peakMemory([&] { ours(1); });
+  const double gridMemory = peakMemory([&] { vtkTriangles = filled(segments, grid); });
   std::printf("%d segments, lattice %d x %d x %d, tree of %.1f KiB\n", kSegments, grid.size(0),
     grid.size(1), grid.size(2), treeBytes / 1024.0);
-  std::printf("HybridTree, 1 thread    %8.1f ms  %zu triangles, %s, peak %.1f MiB\n",
-    1e3 * median(one), mesh.triangles.size(),
+  std::printf("HybridTree: %zu triangles, %s, peak %.1f MiB\n", mesh.triangles.size(),
     isClosedManifold(mesh) ? "closed manifold" : "NOT a closed manifold", ourMemory);
-  // The ratio of processor times tells what a busy machine hides: 1 is no work lost to threads.
-  std::printf(
-    "HybridTree, 2 threads   %8.1f ms  speed-up %.2f, processor time %.2f of one thread's\n",
-    1e3 * median(two), median(one) / median(two), median(twoCpu) / median(oneCpu));
-  std::printf("vtkSampleFunction + FE  %8.1f ms  ours is %.1f times as fast\n",
-    1e3 * median(sample), median(sample) / median(one));
-  std::printf("dense fill + FE         %8.1f ms  ours takes %.2f times as long; %lld triangles, "
-              "peak %.1f MiB\n",
-    1e3 * median(fill), median(one) / median(fill), static_cast<long long>(vtkTriangles),
+  std::printf("dense fill: %lld triangles, peak %.1f MiB\n", static_cast<long long>(vtkTriangles),
     gridMemory);
+
+  benchmarks::RatioReporter reporter;
+  add(reporter, "snake/HybridTree", [&] { ours(1); });
+  // The ratio of CPU times tells what a busy machine hides: 1 is no work lost to threads.
+  add(reporter, "snake/HybridTree, 2 threads", [&] { ours(2); });
+  add(reporter, "snake/dense fill + vtkFlyingEdges3D", [&] { filled(segments, grid); });
+  add(reporter, "snake/vtkSampleFunction + vtkFlyingEdges3D", [&] { sampled(segments, grid); });
+  benchmark::RunSpecifiedBenchmarks(&reporter);
+  reporter.print();
   return 0;
 }

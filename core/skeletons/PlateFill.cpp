@@ -123,6 +123,7 @@ public:
     strip.smooth(kRounds);
     strip.splitLongEdges(longest);
     strip.smooth(kRoundsAfter);
+    strip.splitLongEdges(longest); // what that made long again
     return this->join(strip);
   }
 
