@@ -137,8 +137,35 @@ private:
     return std::size_t(point) < child_[operand]->points.size();
   }
 
+  // How much of the normal of a cut point is that of A, how much that of B. A crease has two and a
+  // point but one, so on one side the shading runs over a whole triangle: on that of the smaller
+  // triangles, where these are much smaller.
+  std::array<double, 2> normalWeights() const
+  {
+    constexpr double kMuchLarger = 2.0;
+    std::array<double, 2> area{ 0.0, 0.0 };
+    std::array<double, 2> count{ 0.0, 0.0 };
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
+    {
+      const Triangle& corner = mesh_.triangles[t];
+      const std::size_t operand = std::size_t(result_.sourceOperand[t]);
+      const std::int32_t source = result_.sourceTriangle[t];
+      const bool atCut = std::any_of(corner.begin(), corner.end(),
+        [&](std::int32_t point) { return std::size_t(point) >= result_.firstCut; });
+      if (atCut && source >= 0)
+      {
+        area[operand] += areaNormal(*child_[operand], std::size_t(source)).norm();
+        count[operand] += 1.0;
+      }
+    }
+    const double a = area[0] * count[1];
+    const double b = area[1] * count[0];
+    return { b > kMuchLarger * a ? 0.0 : 1.0, a > kMuchLarger * b ? 0.0 : 1.0 };
+  }
+
   void makeCutNormals()
   {
+    const std::array<double, 2> weight = this->normalWeights();
     for (std::size_t k = 0; k < result_.cutPoints.size(); ++k)
     {
       const CutPoint& cut = result_.cutPoints[k];
@@ -147,9 +174,10 @@ private:
       Vec3 normal = Vec3::Zero();
       if (cut.low >= 0 && this->isOriginal(edgeOf, cut.low) && this->isOriginal(edgeOf, cut.high))
       {
-        normal += ((1.0 - cut.parameter) * this->normalOf(edgeOf, cut.low) +
-          cut.parameter * this->normalOf(edgeOf, cut.high))
-                    .stableNormalized();
+        normal += weight[edgeOf] *
+          ((1.0 - cut.parameter) * this->normalOf(edgeOf, cut.low) +
+            cut.parameter * this->normalOf(edgeOf, cut.high))
+            .stableNormalized();
       }
       const TriangleMesh& other = *child_[1 - edgeOf];
       if (cut.triangle >= 0 && std::size_t(cut.triangle) < other.triangles.size())
@@ -161,7 +189,7 @@ private:
           across += weights[c] *
             this->normalOf(1 - edgeOf, other.triangles[std::size_t(cut.triangle)][std::size_t(c)]);
         }
-        normal += across.stableNormalized();
+        normal += weight[1 - edgeOf] * across.stableNormalized();
       }
       const double length = normal.norm();
       mesh_.normals[point] = length > 1e-6 ? Vec3(normal / length) : Vec3::Zero();
