@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Distance to real scans beside Embree's point queries ([HT] Fig. 7): 100^3 lattice points in the
-// unit box, for several radii of influence; scattered single points; building the hierarchy. Both
-// sides run one after the other in one process, each the median of a few rounds, on the same
-// threads. Then on one thread, by fewer points, CGAL's AABB tree and vtkImplicitPolyDataDistance;
-// and ours on two threads beside one.
-//
-//   MeshDistanceBenchmark [threads, default 1] [rounds, default 3]
+// unit box, for several radii of influence; scattered single points; building the hierarchy. Then,
+// by fewer points, CGAL's AABB tree and vtkImplicitPolyDataDistance; and ours on two threads.
+// One thread but for that; in random order, medians; times are per point, those of a build whole.
 
 #include "benchmarks/support/BenchmarkMesh.h"
 #include "benchmarks/support/EmbreeDistance.h"
 #include "benchmarks/support/PeerDistances.h"
+#include "benchmarks/support/RatioReporter.h"
 #include "core/base/Parallel.h"
 #include "core/mesh/MeshBvh.h"
 #include "core/mesh/MeshDistance.h"
+
+#include <benchmark/benchmark.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
+#include <functional>
 #include <limits>
 #include <random>
 #include <string>
@@ -28,24 +28,11 @@ namespace
 {
 
 using namespace hybridtree;
-using benchmark::EmbreeDistance;
+using hybridtree::benchmark::EmbreeDistance;
+using Distance = std::function<void(PointBatch, double*)>;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-int rounds = 3;
-
-template <typename Work>
-double seconds(const Work& work)
-{
-  const auto start = std::chrono::steady_clock::now();
-  work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-double median(std::vector<double> times)
-{
-  std::sort(times.begin(), times.end());
-  return times[times.size() / 2];
-}
+constexpr std::size_t kEvery = 199; // lattice point for the slower peers
 
 struct Cloud
 {
@@ -79,145 +66,185 @@ Cloud scattered(const Box3& box, int count)
   return cloud;
 }
 
-void report(const std::string& what, double ours, double peer, double count, double worst,
-  const char* peerName = "Embree")
+struct Scan
 {
-  std::printf("  %-34s ours %9.3f us  %s %9.3f us  ratio %6.2f", what.c_str(), 1e6 * ours / count,
-    peerName, 1e6 * peer / count, peer / ours);
-  if (worst >= 0.0)
+  Scan(const char* nameOfIt, MeshPtr meshOfIt)
+    : name(nameOfIt)
+    , mesh(std::move(meshOfIt))
+    , ours(mesh)
+    , grid(lattice(mesh->bounds(), 100))
+    , cloud(scattered(mesh->bounds(), 100000))
   {
-    std::printf("  largest difference %.1e", worst);
+    for (std::size_t k = 0; k < grid.x.size(); k += kEvery)
+    {
+      few.x.push_back(grid.x[k]);
+      few.y.push_back(grid.y[k]);
+      few.z.push_back(grid.z[k]);
+    }
   }
-  std::printf("\n");
-  std::fflush(stdout);
+
+  std::string name;
+  MeshPtr mesh;
+  MeshDistance ours;
+  Cloud grid;
+  Cloud cloud;
+  Cloud few; // of the grid
+};
+
+// Once per call of the benchmark, outside of the time: what prepares, and gives what is timed.
+// An Embree device caps oneTBB's threads for the whole process as long as it lives; so it lives
+// within one benchmark.
+using Prepare = std::function<std::function<void()>()>;
+
+void add(benchmarks::RatioReporter& reporter, const std::string& name, double points,
+  const Prepare& prepare, int threads = 1)
+{
+  reporter.list(name);
+  ::benchmark::RegisterBenchmark(name.c_str(),
+    [=](::benchmark::State& state)
+    {
+      setThreadCount(threads);
+      const std::function<void()> work = prepare();
+      for (auto _ : state)
+      {
+        const auto start = std::chrono::steady_clock::now();
+        work();
+        const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
+        state.SetIterationTime(time.count() / points);
+      }
+    })
+    ->Unit(points > 1.0 ? ::benchmark::kMicrosecond : ::benchmark::kMillisecond)
+    ->UseManualTime()
+    ->Iterations(1);
 }
 
-void queries(const std::string& what, const MeshDistance& ours, const EmbreeDistance& peer,
-  PointBatch points, double radius, bool oneByOne)
+// Distances of a batch, `all` points of it or one after the other.
+Prepare queries(PointBatch points, bool oneByOne, const std::function<Distance()>& make)
 {
-  std::vector<double> mine(points.size), theirs(points.size), myTimes, theirTimes;
-  for (int round = 0; round < rounds; ++round)
+  return [=]() -> std::function<void()>
   {
-    myTimes.push_back(seconds(
-      [&]
+    return [=, distance = make(), values = std::vector<double>(points.size)]() mutable
+    {
+      for (std::size_t k = 0; oneByOne && k < points.size; ++k)
       {
-        for (std::size_t k = 0; oneByOne && k < points.size; ++k)
-        {
-          ours.distance(points.slice(k, 1), radius, &mine[k]);
-        }
-        if (!oneByOne)
-        {
-          ours.distance(points, radius, mine.data());
-        }
-      }));
-    theirTimes.push_back(seconds([&] { peer.distance(points, radius, theirs.data()); }));
-  }
+        distance(points.slice(k, 1), &values[k]);
+      }
+      if (!oneByOne)
+      {
+        distance(points, values.data());
+      }
+      ::benchmark::DoNotOptimize(values.data());
+    };
+  };
+}
+
+std::function<Distance()> oursWithin(const Scan& scan, double radius)
+{
+  return [&scan, radius]() -> Distance
+  {
+    return [&scan, radius](PointBatch points, double* distance)
+    { scan.ours.distance(points, radius, distance); };
+  };
+}
+
+std::function<Distance()> embreeWithin(const Scan& scan, double radius)
+{
+  return [&scan, radius]() -> Distance
+  {
+    auto peer = std::make_shared<EmbreeDistance>(*scan.mesh, 1);
+    peer->build();
+    return [peer, radius](PointBatch points, double* distance)
+    { peer->distance(points, radius, distance); };
+  };
+}
+
+// Largest difference of ours from a peer's; where only one is finite, of that from the radius.
+double difference(const Distance& ours, const Distance& theirs, PointBatch points, double radius)
+{
+  std::vector<double> mine(points.size), other(points.size);
+  ours(points, mine.data());
+  theirs(points, other.data());
   double worst = 0.0;
   for (std::size_t k = 0; k < points.size; ++k)
   {
-    const bool both = std::isfinite(mine[k]) && std::isfinite(theirs[k]);
-    const double beyond = std::isfinite(mine[k]) ? mine[k] : theirs[k];
+    const double a = std::abs(mine[k]);
+    const double b = std::abs(other[k]);
+    const bool both = std::isfinite(a) && std::isfinite(b);
     worst = std::max(worst,
-      both                     ? std::abs(mine[k] - theirs[k])
-        : mine[k] == theirs[k] ? 0.0
-                               : std::abs(beyond - radius)); // one of them at the rim
+      both       ? std::abs(a - b)
+        : a == b ? 0.0
+                 : std::abs((std::isfinite(a) ? a : b) - radius));
   }
-  report(what, median(myTimes), median(theirTimes), double(points.size), worst);
+  return worst;
 }
 
-// Every 199th lattice point for the slower peers; ours has the whole lattice, as its users do.
-void slowerPeers(const MeshDistance& ours, PointBatch points)
+void addQueries(benchmarks::RatioReporter& reporter, const Scan& scan, const std::string& what,
+  const Cloud& cloud, double radius, bool oneByOne)
 {
-  Cloud few;
-  for (std::size_t k = 0; k < points.size; k += 199)
-  {
-    few.x.push_back(points.x[k]);
-    few.y.push_back(points.y[k]);
-    few.z.push_back(points.z[k]);
-  }
-  std::vector<double> mine(points.size), theirs(few.x.size());
+  const std::string name = scan.name + ", " + what;
+  const auto points = static_cast<double>(cloud.x.size());
+  const auto ours = oursWithin(scan, radius);
+  const auto embree = embreeWithin(scan, radius);
+  std::printf("%s: largest difference from Embree %.1e\n", name.c_str(),
+    difference(ours(), embree(), cloud.batch(), radius));
+  add(reporter, name + "/HybridTree", points, queries(cloud.batch(), oneByOne, ours));
+  add(reporter, name + "/Embree", points, queries(cloud.batch(), false, embree));
+}
+
+// Ours has the whole lattice, as its users do.
+void addSlowerPeers(benchmarks::RatioReporter& reporter, const Scan& scan)
+{
+  const std::string name = scan.name + ", beside the slower ones";
+  const auto points = static_cast<double>(scan.grid.x.size());
+  const auto ours = oursWithin(scan, kInfinity);
+  add(reporter, name + "/HybridTree", points, queries(scan.grid.batch(), false, ours));
+  add(
+    reporter, name + "/HybridTree, 2 threads", points, queries(scan.grid.batch(), false, ours), 2);
   const struct
   {
     const char* name;
-    hybridtree::benchmark::PeerDistance distance;
-  } peers[] = { { "CGAL", hybridtree::benchmark::cgalDistance(*ours.mesh()) },
-    { "VTK", hybridtree::benchmark::vtkDistance(*ours.mesh()) } };
-  hybridtree::setThreadCount(1);
+    Distance distance;
+  } peers[] = { { "CGAL", hybridtree::benchmark::cgalDistance(*scan.mesh) },
+    { "VTK", hybridtree::benchmark::vtkDistance(*scan.mesh) } };
   for (const auto& peer : peers)
   {
-    std::vector<double> myTimes, theirTimes;
-    for (int round = 0; round < rounds; ++round)
-    {
-      myTimes.push_back(seconds([&] { ours.distance(points, kInfinity, mine.data()); }));
-      theirTimes.push_back(seconds([&] { peer.distance(few.batch(), theirs.data()); }));
-    }
-    double worst = 0.0;
-    for (std::size_t k = 0; k < theirs.size(); ++k)
-    {
-      worst = std::max(worst, std::abs(std::abs(theirs[k]) - mine[199 * k]));
-    }
-    const double perPoint = double(points.size) / double(few.x.size());
-    report("unbounded, 1 thread", median(myTimes), perPoint * median(theirTimes),
-      double(points.size), worst, peer.name);
+    std::printf("%s: largest difference from %s %.1e\n", name.c_str(), peer.name,
+      difference(ours(), peer.distance, scan.few.batch(), kInfinity));
+    add(reporter, name + "/" + peer.name, static_cast<double>(scan.few.x.size()),
+      queries(scan.few.batch(), false, [distance = peer.distance] { return distance; }));
   }
 }
 
-void twoThreads(const MeshDistance& ours, PointBatch points)
+void addAll(benchmarks::RatioReporter& reporter, const Scan& scan)
 {
-  std::vector<double> distance(points.size), times[2];
-  for (int round = 0; round < rounds; ++round)
-  {
-    for (int threads = 1; threads <= 2; ++threads)
-    {
-      hybridtree::setThreadCount(threads);
-      times[threads - 1].push_back(
-        seconds([&] { ours.distance(points, kInfinity, distance.data()); }));
-    }
-  }
-  report("unbounded, 2 threads", median(times[1]), median(times[0]), double(points.size), -1.0,
-    "1 thread");
-}
-
-void compare(const char* name, const std::string& file, std::size_t triangles, int threads)
-{
-  const MeshPtr mesh = hybridtree::benchmark::benchmarkMesh(file, triangles);
-  std::printf("%s: %zu triangles, %d thread%s\n", name, mesh->triangles.size(), threads,
-    threads == 1 ? "" : "s");
-  const MeshDistance ours(mesh);
-  const Cloud grid = lattice(mesh->bounds(), 100);
-  // First: an Embree device caps oneTBB's threads for the whole process as long as it lives.
-  twoThreads(ours, grid.batch());
-  hybridtree::setThreadCount(threads);
-  EmbreeDistance peer(*mesh, threads);
-  std::vector<double> myBuild, theirBuild;
-  for (int round = 0; round < rounds; ++round)
-  {
-    myBuild.push_back(seconds([&] { const MeshBvh bvh(*mesh); }));
-    theirBuild.push_back(seconds([&] { peer.build(); }));
-  }
-  report("build, whole", median(myBuild), median(theirBuild), 1.0, -1.0);
-
-  queries("100^3, unbounded", ours, peer, grid.batch(), kInfinity, false);
-  for (const double radius : { 0.05, 0.1, 0.25 })
-  {
-    char what[40];
-    std::snprintf(what, sizeof what, "100^3, R = %.2f", radius);
-    queries(what, ours, peer, grid.batch(), radius, false);
-  }
-  const Cloud cloud = scattered(mesh->bounds(), 100000);
-  queries("scattered, one batch", ours, peer, cloud.batch(), kInfinity, false);
-  queries("scattered, one call each", ours, peer, cloud.batch(), kInfinity, true);
-  slowerPeers(ours, grid.batch());
+  std::printf("%s: %zu triangles\n", scan.name.c_str(), scan.mesh->triangles.size());
+  const auto buildOurs = [&scan]() -> std::function<void()>
+  { return [&scan] { const MeshBvh bvh(*scan.mesh); }; };
+  const auto buildEmbree = [&scan]() -> std::function<void()>
+  { return [peer = std::make_shared<EmbreeDistance>(*scan.mesh, 1)] { peer->build(); }; };
+  add(reporter, scan.name + ", build/HybridTree", 1.0, buildOurs);
+  add(reporter, scan.name + ", build/Embree", 1.0, buildEmbree);
+  addQueries(reporter, scan, "100^3 unbounded", scan.grid, kInfinity, false);
+  addQueries(reporter, scan, "100^3 R = 0.05", scan.grid, 0.05, false);
+  addQueries(reporter, scan, "100^3 R = 0.1", scan.grid, 0.1, false);
+  addQueries(reporter, scan, "100^3 R = 0.25", scan.grid, 0.25, false);
+  addQueries(reporter, scan, "scattered in one batch", scan.cloud, kInfinity, false);
+  addQueries(reporter, scan, "scattered in one call each", scan.cloud, kInfinity, true);
+  addSlowerPeers(reporter, scan);
 }
 
 } // namespace
 
 int main(int argc, char** argv)
 {
-  const int threads = argc > 1 ? std::max(1, std::atoi(argv[1])) : 1;
-  rounds = argc > 2 ? std::max(1, std::atoi(argv[2])) : 3;
-  hybridtree::setThreadCount(threads);
-  compare("Bunny", "stanford_bunny.obj", 69451, threads);
-  compare("Igea", "igea.ply", 268686, threads);
+  benchmarks::initializeInterleaved(argc, argv, 3);
+  setThreadCount(1);
+  benchmarks::RatioReporter reporter(false);
+  const Scan bunny("Bunny", hybridtree::benchmark::benchmarkMesh("stanford_bunny.obj", 69451));
+  const Scan igea("Igea", hybridtree::benchmark::benchmarkMesh("igea.ply", 268686));
+  addAll(reporter, bunny);
+  addAll(reporter, igea);
+  ::benchmark::RunSpecifiedBenchmarks(&reporter);
+  reporter.print();
   return 0;
 }

@@ -48,8 +48,8 @@ void RatioReporter::ReportRuns(const std::vector<Run>& runs)
 
 void RatioReporter::print() const
 {
-  std::printf("\n| case | method | wall time | times the first | CPU time | times the first |\n"
-              "|---|---|---:|---:|---:|---:|\n");
+  std::printf("\n| case | method | time | times the first |%s\n|---|---|---:|---:|%s\n",
+    withCpu_ ? " CPU time | times the first |" : "", withCpu_ ? "---:|---:|" : "");
   std::string last;
   double wall = 0.0;
   double cpu = 0.0;
@@ -68,9 +68,13 @@ void RatioReporter::print() const
       wall = rowWall;
       cpu = rowCpu;
     }
-    std::printf("| %s | %s | %.3f %s | %.2f | %.3f %s | %.2f |\n", name == last ? "" : name.c_str(),
-      row.name.substr(slash + 1).c_str(), rowWall, row.unit.c_str(), rowWall / wall, rowCpu,
-      row.unit.c_str(), rowCpu / cpu);
+    std::printf("| %s | %s | %.3f %s | %.2f |", name == last ? "" : name.c_str(),
+      row.name.substr(slash + 1).c_str(), rowWall, row.unit.c_str(), rowWall / wall);
+    if (withCpu_)
+    {
+      std::printf(" %.3f %s | %.2f |", rowCpu, row.unit.c_str(), rowCpu / cpu);
+    }
+    std::printf("\n");
     last = name;
   }
 }

@@ -14,6 +14,9 @@ namespace benchmarks
 class RatioReporter final : public benchmark::ConsoleReporter
 {
 public:
+  /// \param withCpu off where the time that counts is measured by the benchmark itself.
+  explicit RatioReporter(bool withCpu = true) : withCpu_(withCpu) {}
+
   /// Rows are in the order in which they are listed; all others follow. Methods of a case together.
   void list(const std::string& name);
 
@@ -33,6 +36,7 @@ private:
   };
   Row& row(const std::string& name);
 
+  bool withCpu_;
   std::vector<Row> rows_;
 };
 
