@@ -33,7 +33,7 @@ public:
   /**
    * What of the mesh is made anew: NODE_BASED (1) only where the operands meet, PRIMITIVE_BASED (2)
    * only where those meet that blends among the operands are made of, GLOBAL (3) everything;
-   * AUTOMATIC (0, default) is primitive-based where meshes take part and little of them is reached,
+   * AUTOMATIC (0, default) is primitive-based where meshes take part or shapes hardly meet,
    * else global. Elsewhere the operands' triangles stay as they are. The shape is the same for all.
    */
   vtkSetMacro(Method, int);

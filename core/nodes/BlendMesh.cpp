@@ -72,22 +72,17 @@ public:
   }
 };
 
-/// Fields of skeletons cost so little that cutting and joining meshes takes longer than sampling
-/// everything; those of meshes do not.
-bool mayPay(const Node& blend, const BlendOptions& options)
-{
-  return options.method != BlendMethod::Automatic || blend.isFaceted();
-}
-
-/// Whether keeping the parts' triangles is faster than sampling where they are: a point of the
-/// patch, with the cut and the joint, costs about twice as much as one of the whole lattice.
-bool pays(const std::vector<KeptPart>& kept, const CellSet& cells, double cellSize)
+/// Whether keeping the parts' triangles is faster than sampling where they are. With fields of
+/// meshes a point of the patch, with the cut and the joint, costs about twice as much as one of the
+/// whole lattice; fields of skeletons cost next to nothing, and cut and joint count for all.
+bool pays(
+  const Node& blend, const std::vector<KeptPart>& kept, const CellSet& cells, double cellSize)
 {
   // Measured on scans and round shapes: marked cells per point made in them, and points of a
   // lattice per squared cell size of surface.
   constexpr double kCellsPerPoint = 6.0;
   constexpr double kPointsPerSquare = 1.4;
-  constexpr double kCostOfPatch = 2.2;
+  const double costOfPatch = blend.isFaceted() ? 2.2 : 40.0;
   double area = 0.0;
   for (const KeptPart& part : kept)
   {
@@ -98,7 +93,7 @@ bool pays(const std::vector<KeptPart>& kept, const CellSet& cells, double cellSi
   }
   const double all = kPointsPerSquare * area / (cellSize * cellSize);
   const double made = static_cast<double>(cells.size()) / kCellsPerPoint;
-  return kCostOfPatch * made < std::max(all, made);
+  return costOfPatch * made < std::max(all, made);
 }
 
 TriangleMesh wholeLattice(
@@ -204,26 +199,57 @@ TriangleMesh stitchOver(const Node& blend, const std::vector<KeptPart>& kept, Ce
   return std::move(stitched->mesh);
 }
 
-std::vector<MarkTerm> termsOf(const std::vector<BlendPart>& parts, double threshold)
+std::vector<Box3> influenceBoxes(const std::vector<BlendPart>& parts)
 {
   std::vector<Box3> boxes;
   for (const BlendPart& part : parts)
   {
     boxes.push_back(part.node->influenceBounds());
   }
+  return boxes;
+}
+
+double ratioOf(std::size_t part, const std::vector<Box3>& boxes)
+{
+  std::vector<Box3> others;
+  for (std::size_t n = 0; n < boxes.size(); ++n)
+  {
+    if (n != part && boxes[n].intersects(boxes[part]))
+    {
+      others.push_back(boxes[n]);
+    }
+  }
+  return overlapRatio(boxes[part], others);
+}
+
+/// A first glance, before anything is meshed or marked: where no part is a mesh, only parts that
+/// hardly meet are worth it.
+bool mayPay(const Node& blend, const std::vector<BlendPart>& parts, const BlendOptions& options)
+{
+  if (options.method != BlendMethod::Automatic || blend.isFaceted())
+  {
+    return true;
+  }
+  constexpr double kHardlyMeet = 0.1;
+  const std::vector<Box3> boxes = influenceBoxes(parts);
+  for (std::size_t k = 0; k < boxes.size(); ++k)
+  {
+    if (ratioOf(k, boxes) > kHardlyMeet)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+std::vector<MarkTerm> termsOf(const std::vector<BlendPart>& parts, double threshold)
+{
+  const std::vector<Box3> boxes = influenceBoxes(parts);
   std::vector<MarkTerm> terms;
   for (std::size_t k = 0; k < parts.size(); ++k)
   {
-    std::vector<Box3> others;
-    for (std::size_t n = 0; n < boxes.size(); ++n)
-    {
-      if (n != k && boxes[n].intersects(boxes[k]))
-      {
-        others.push_back(boxes[n]);
-      }
-    }
-    const bool kept = !parts[k].node->isNegative() && parts[k].count == 1 &&
-      overlapRatio(boxes[k], others) <= threshold;
+    const bool kept =
+      !parts[k].node->isNegative() && parts[k].count == 1 && ratioOf(k, boxes) <= threshold;
     terms.push_back({ parts[k].node, kept, static_cast<double>(parts[k].count) });
   }
   return terms;
@@ -254,7 +280,7 @@ TriangleMesh blendMesh(const Node& blend, const std::vector<BlendPart>& parts,
   {
     return {};
   }
-  if (options.method == BlendMethod::Global || !mayPay(blend, options))
+  if (options.method == BlendMethod::Global || !mayPay(blend, parts, options))
   {
     return wholeLattice(blend, edgeLength, report, progress);
   }
@@ -270,7 +296,7 @@ TriangleMesh blendMesh(const Node& blend, const std::vector<BlendPart>& parts,
   const CellGrid grid = CellGrid::ofLevel(edgeLength, blend.depth());
   CellSet cells =
     markedCells(terms, SumInteraction(), grid, budget, ProgressPart(progress, 0.3, 0.4));
-  if (options.method == BlendMethod::Automatic && !pays(kept, cells, edgeLength))
+  if (options.method == BlendMethod::Automatic && !pays(blend, kept, cells, edgeLength))
   {
     return wholeLattice(blend, edgeLength, report, ProgressPart(progress, 0.4, 1.0));
   }
@@ -285,7 +311,8 @@ TriangleMesh localBlendMesh(const Node& blend, const LocalBlendParts& local,
   {
     return {};
   }
-  if (options.method == BlendMethod::Global || !mayPay(blend, options))
+  if (options.method == BlendMethod::Global ||
+    (options.method == BlendMethod::Automatic && !blend.isFaceted()))
   {
     return wholeLattice(blend, edgeLength, report, progress);
   }
@@ -304,7 +331,7 @@ TriangleMesh localBlendMesh(const Node& blend, const LocalBlendParts& local,
   const CellGrid grid = CellGrid::ofLevel(edgeLength, blend.depth());
   CellSet cells =
     markedCells(terms, LocalInteraction(), grid, budget, ProgressPart(progress, 0.3, 0.4));
-  if (options.method == BlendMethod::Automatic && !pays(kept, cells, edgeLength))
+  if (options.method == BlendMethod::Automatic && !pays(blend, kept, cells, edgeLength))
   {
     return wholeLattice(blend, edgeLength, report, ProgressPart(progress, 0.4, 1.0));
   }

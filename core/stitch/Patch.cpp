@@ -2,15 +2,13 @@
 #include "core/stitch/Patch.h"
 
 #include "core/base/Parallel.h"
-#include "core/polygonize/EdgeRoots.h"
 #include "core/polygonize/MarchingCubesTable.h"
 #include "core/stitch/BorderSigns.h"
 #include "core/stitch/CellLoops.h"
 #include "core/stitch/PatchBricks.h"
+#include "core/stitch/PatchVertices.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <unordered_set>
 
 namespace hybridtree
@@ -69,9 +67,7 @@ public:
   Patch run()
   {
     this->noteMisfits(alignBorderSigns(bricks_, crossings_));
-    this->countVertices();
-    this->makeVertices();
-    this->collectUnsettled();
+    makePatchVertices(bricks_, lattice_, border_.vertexCount, patch_, progress_);
     this->makeTriangles();
     return std::move(patch_);
   }
@@ -118,150 +114,6 @@ private:
     part.report(1.0);
   }
 
-  bool isInside(const PatchBrick& brick, int x, int y, int z)
-  {
-    const auto place = bricks_.locate(brick, x, y, z);
-    return place.brick && PatchBrick::has(place.brick->inside, place.x, place.y, place.z);
-  }
-
-  // Vertices.
-
-  void countVertices()
-  {
-    this->forEachBrick(0.5, 0.55,
-      [&](PatchBrick& brick, std::size_t)
-      {
-        for (unsigned axis = 0; axis < 3; ++axis)
-        {
-          for (int z = 0; z < kBrickSide; ++z)
-          {
-            for (std::uint64_t word = brick.inner[axis][z]; word != 0; word &= word - 1)
-            {
-              const std::uint64_t bit = word & (~word + 1);
-              const int n = PatchMaker::indexOf(bit);
-              const int x = n % kBrickSide;
-              const int y = n / kBrickSide;
-              const bool low = PatchBrick::has(brick.inside, x, y, z);
-              const bool high =
-                this->isInside(brick, x + (axis == 0), y + (axis == 1), z + (axis == 2));
-              brick.crossed[axis][z] |= low != high ? bit : 0;
-            }
-          }
-        }
-        brick.countVertices();
-      });
-    std::int64_t count = border_.vertexCount;
-    for (PatchBrick& brick : bricks_.all())
-    {
-      brick.firstVertex = static_cast<std::int32_t>(count);
-      count += brick.vertexCount;
-    }
-    patch_.points.resize(static_cast<std::size_t>(count - border_.vertexCount));
-    patch_.normals.resize(patch_.points.size());
-  }
-
-  static int indexOf(std::uint64_t bit)
-  {
-    int n = 0;
-    for (int step = 32; step > 0; step /= 2)
-    {
-      if (bit >> step != 0)
-      {
-        bit >>= step;
-        n += step;
-      }
-    }
-    return n;
-  }
-
-  void makeVertices()
-  {
-    overruled_.resize(bricks_.all().size());
-    this->forEachBrick(0.55, 0.8,
-      [&](PatchBrick& brick, std::size_t number)
-      {
-        if (brick.vertexCount == 0)
-        {
-          return;
-        }
-        std::vector<CrossedEdge> edges;
-        edges.reserve(static_cast<std::size_t>(brick.vertexCount));
-        for (unsigned axis = 0; axis < 3; ++axis)
-        {
-          for (int z = 0; z < kBrickSide; ++z)
-          {
-            for (std::uint64_t word = brick.crossed[axis][z]; word != 0; word &= word - 1)
-            {
-              const int n = PatchMaker::indexOf(word & (~word + 1));
-              edges.push_back(this->edgeAt(brick, axis, n % kBrickSide, n / kBrickSide, z));
-            }
-          }
-        }
-        const std::int32_t first = brick.firstVertex - border_.vertexCount;
-        for (std::size_t k = 0; k < edges.size(); ++k)
-        {
-          if (PatchMaker::isOverruled(edges[k]))
-          {
-            overruled_[number].push_back(brick.firstVertex + static_cast<std::int32_t>(k));
-          }
-        }
-        if (!brick.source)
-        {
-          this->placeWithoutField(edges, first);
-          return;
-        }
-        findSurface(*brick.source, lattice_, edges, &patch_.points[first], &patch_.normals[first]);
-      });
-  }
-
-  void collectUnsettled()
-  {
-    for (std::size_t k = 0; k < overruled_.size(); ++k)
-    {
-      patch_.unsettled.insert(patch_.unsettled.end(), overruled_[k].begin(), overruled_[k].end());
-    }
-  }
-
-  /// The border has overruled a sample: the surface does not cross the edge, or not once.
-  static bool isOverruled(const CrossedEdge& edge)
-  {
-    const auto disagrees = [](bool inside, float value)
-    { return !std::isnan(value) && inside != hybridtree::isInside(value); };
-    return disagrees(edge.lowInside, edge.lowValue) || disagrees(!edge.lowInside, edge.highValue);
-  }
-
-  CrossedEdge edgeAt(const PatchBrick& brick, unsigned axis, int x, int y, int z)
-  {
-    CrossedEdge edge;
-    edge.low = { kBrickSide * brick.index[0] + x, kBrickSide * brick.index[1] + y,
-      kBrickSide * brick.index[2] + z };
-    edge.axis = axis;
-    edge.lowInside = PatchBrick::has(brick.inside, x, y, z);
-    edge.lowValue = this->valueAt(bricks_.locate(brick, x, y, z));
-    edge.highValue =
-      this->valueAt(bricks_.locate(brick, x + (axis == 0), y + (axis == 1), z + (axis == 2)));
-    return edge;
-  }
-
-  float valueAt(const PatchBricks::Place& place) const
-  {
-    const bool known = place.brick && !place.brick->values.empty();
-    return known ? place.brick->values[(place.z * kBrickSide + place.y) * kBrickSide + place.x]
-                 : std::numeric_limits<float>::quiet_NaN();
-  }
-
-  /// The line from outside claims a surface where the field is 0.
-  void placeWithoutField(const std::vector<CrossedEdge>& edges, std::int32_t first)
-  {
-    for (std::size_t k = 0; k < edges.size(); ++k)
-    {
-      Vec3 point = lattice_.point(edges[k].low);
-      point[edges[k].axis] += 0.5 * lattice_.cellSize;
-      patch_.points[first + k] = point;
-      patch_.normals[first + k] = Vec3::Zero();
-    }
-  }
-
   // Triangles.
 
   void makeTriangles()
@@ -298,7 +150,7 @@ private:
     {
       for (std::uint64_t word = brick.cells[z]; word != 0; word &= word - 1)
       {
-        const int n = PatchMaker::indexOf(word & (~word + 1));
+        const int n = PatchBrick::lowestBit(word);
         const std::array<int, 3> cell{ n % kBrickSide, n / kBrickSide, z };
         const unsigned signs = this->caseOf(brick, cell);
         const bool hasLine = busy_.count(PatchMaker::indexOf(brick, cell)) != 0;
@@ -351,7 +203,7 @@ private:
     unsigned signs = 0;
     for (unsigned corner = 0; corner < 8; ++corner)
     {
-      signs |= unsigned(this->isInside(brick, cell[0] + static_cast<int>(corner & 1u),
+      signs |= unsigned(bricks_.isInside(brick, cell[0] + static_cast<int>(corner & 1u),
                  cell[1] + static_cast<int>(corner >> 1 & 1u),
                  cell[2] + static_cast<int>(corner >> 2 & 1u)))
         << corner;
@@ -567,8 +419,7 @@ private:
   BorderCrossings crossings_;
   std::unordered_map<Index3, std::vector<BorderSegment>, Index3Hash> segments_;
   std::unordered_map<std::int32_t, LatticeEdge> facesOf_;
-  std::unordered_set<Index3, Index3Hash> busy_;      ///< cells that the line from outside touches
-  std::vector<std::vector<std::int32_t>> overruled_; ///< per brick: vertices off the surface
+  std::unordered_set<Index3, Index3Hash> busy_; ///< cells that the line from outside touches
   Patch patch_;
 };
 

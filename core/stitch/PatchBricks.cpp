@@ -195,7 +195,7 @@ void PatchBricks::sample(PatchBrick& brick, const FieldSource& field, const Latt
     const double value = values[k] - kThreshold;
     const int n = chosen[k];
     brick.values[n] = static_cast<float>(value);
-    brick.inside[n / 64] |= std::uint64_t(isInside(value)) << (n % 64);
+    brick.inside[n / 64] |= std::uint64_t(hybridtree::isInside(value)) << (n % 64);
   }
 }
 
@@ -216,6 +216,27 @@ PatchBricks::Place PatchBricks::locate(const Index3& index)
     static_cast<int>(index[0] - kBrickSide * brick[0]),
     static_cast<int>(index[1] - kBrickSide * brick[1]),
     static_cast<int>(index[2] - kBrickSide * brick[2]) };
+}
+
+int PatchBrick::lowestBit(std::uint64_t word)
+{
+  std::uint64_t bit = word & (~word + 1);
+  int n = 0;
+  for (int step = 32; step > 0; step /= 2)
+  {
+    if (bit >> step != 0)
+    {
+      bit >>= step;
+      n += step;
+    }
+  }
+  return n;
+}
+
+bool PatchBricks::isInside(const PatchBrick& brick, int x, int y, int z)
+{
+  const Place place = this->locate(brick, x, y, z);
+  return place.brick && PatchBrick::has(place.brick->inside, place.x, place.y, place.z);
 }
 
 } // namespace hybridtree

@@ -31,6 +31,8 @@ struct PatchBrick
   {
     return (bits[z] >> (kBrickSide * y + x) & 1u) != 0;
   }
+  /// Number of the lowest bit of a word that is not 0.
+  static int lowestBit(std::uint64_t word);
   /// Number of the vertex on a crossed edge.
   std::int32_t vertexOn(unsigned axis, int x, int y, int z) const;
   void countVertices();
@@ -56,6 +58,8 @@ public:
   /// \param x, y, z relative to a brick, from -8 to 15.
   Place locate(const PatchBrick& brick, int x, int y, int z);
   Place locate(const Index3& index);
+  /// The side of a lattice point; outside where it is no corner of a marked cell.
+  bool isInside(const PatchBrick& brick, int x, int y, int z);
 
 private:
   void addBricks(const CellSet& cells);
