@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "reconstruction/Tetrahedralization.h"
 
+#include "reconstruction/DelaunayTypes.h"
+
 #include "core/base/Error.h"
 
-#include <CGAL/Delaunay_triangulation_3.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Spatial_sort_traits_adapter_3.h>
-#include <CGAL/Triangulation_cell_base_with_info_3.h>
-#include <CGAL/Triangulation_vertex_base_with_info_3.h>
 #include <CGAL/property_map.h>
 #include <CGAL/spatial_sort.h>
 
@@ -20,33 +18,9 @@ namespace hybridtree
 namespace
 {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using VertexBase = CGAL::Triangulation_vertex_base_with_info_3<std::int32_t, Kernel>;
-using CellBase = CGAL::Triangulation_cell_base_with_info_3<std::int32_t, Kernel,
-  CGAL::Delaunay_triangulation_cell_base_3<Kernel>>;
-using Delaunay = CGAL::Delaunay_triangulation_3<Kernel,
-  CGAL::Triangulation_data_structure_3<VertexBase, CellBase>>;
-
-Kernel::Point_3 toCgal(const Vec3& p)
+void triangulate(
+  const std::vector<Vec3>& points, DelaunayTriangulation& delaunay, const Progress& progress)
 {
-  return { p.x(), p.y(), p.z() };
-}
-
-void checkFinite(const std::vector<Vec3>& points)
-{
-  for (std::size_t k = 0; k < points.size(); ++k)
-  {
-    if (!points[k].allFinite())
-    {
-      throw InvalidGeometry("Point " + std::to_string(k) +
-        " has a coordinate that is not a finite number: remove it, or mend it where it was made.");
-    }
-  }
-}
-
-Delaunay triangulate(const std::vector<Vec3>& points, const Progress& progress)
-{
-  Delaunay delaunay;
   Delaunay::Cell_handle near;
   for (std::size_t k = 0; k < points.size(); ++k)
   {
@@ -63,7 +37,6 @@ Delaunay triangulate(const std::vector<Vec3>& points, const Progress& progress)
       progress.report(double(k) / double(points.size()));
     }
   }
-  return delaunay;
 }
 
 // Looks now and then whether to go on.
@@ -101,6 +74,18 @@ void checkSolid(const Delaunay& delaunay)
 
 } // namespace
 
+void checkFinite(const std::vector<Vec3>& points)
+{
+  for (std::size_t k = 0; k < points.size(); ++k)
+  {
+    if (!points[k].allFinite())
+    {
+      throw InvalidGeometry("Point " + std::to_string(k) +
+        " has a coordinate that is not a finite number: remove it, or mend it where it was made.");
+    }
+  }
+}
+
 std::vector<std::int32_t> spatialOrder(const std::vector<Vec3>& points)
 {
   checkFinite(points);
@@ -118,7 +103,20 @@ Tetrahedralization::Tetrahedralization(const std::vector<Vec3>& points, const Pr
   : points_(&points)
 {
   checkFinite(points);
-  const Delaunay delaunay = triangulate(points, progress);
+  DelaunayTriangulation delaunay;
+  triangulate(points, delaunay, progress);
+  this->copy(delaunay, progress);
+}
+
+Tetrahedralization::Tetrahedralization(
+  const std::vector<Vec3>& points, const DelaunayTriangulation& delaunay, const Progress& progress)
+  : points_(&points)
+{
+  this->copy(delaunay, progress);
+}
+
+void Tetrahedralization::copy(const DelaunayTriangulation& delaunay, const Progress& progress)
+{
   checkSolid(delaunay);
   Breath breath(progress);
 
@@ -126,7 +124,7 @@ Tetrahedralization::Tetrahedralization(const std::vector<Vec3>& points, const Pr
   for (const auto cell : delaunay.finite_cell_handles())
   {
     breath();
-    cell->info() = next++;
+    cell->info().number = next++;
   }
   finiteCells_ = next;
   for (const auto cell : delaunay.all_cell_handles())
@@ -134,7 +132,7 @@ Tetrahedralization::Tetrahedralization(const std::vector<Vec3>& points, const Pr
     breath();
     if (delaunay.is_infinite(cell))
     {
-      cell->info() = next++;
+      cell->info().number = next++;
     }
   }
   cells_.resize(next);
@@ -145,8 +143,8 @@ Tetrahedralization::Tetrahedralization(const std::vector<Vec3>& points, const Pr
     for (int i = 0; i < 4; ++i)
     {
       const auto vertex = cell->vertex(i);
-      cells_[cell->info()][i] = delaunay.is_infinite(vertex) ? kInfinite : vertex->info();
-      neighbors_[cell->info()][i] = cell->neighbor(i)->info();
+      cells_[cell->info().number][i] = delaunay.is_infinite(vertex) ? kInfinite : vertex->info();
+      neighbors_[cell->info().number][i] = cell->neighbor(i)->info().number;
     }
   }
   this->collectStars(progress);
@@ -213,9 +211,8 @@ int Tetrahedralization::indexOf(std::int32_t cell, std::int32_t vertex) const
 
 std::array<std::int32_t, 3> Tetrahedralization::facet(std::int32_t cell, int facet) const
 {
-  static constexpr int kCorners[4][3] = { { 1, 2, 3 }, { 0, 3, 2 }, { 0, 1, 3 }, { 0, 2, 1 } };
   const Cell& v = cells_[cell];
-  const int* corner = kCorners[facet];
+  const int* corner = kFacetCorners[facet];
   return { v[corner[0]], v[corner[1]], v[corner[2]] };
 }
 

@@ -11,6 +11,11 @@
 namespace hybridtree
 {
 
+struct DelaunayTriangulation; // DelaunayTypes.h
+
+/// \throws InvalidGeometry for a coordinate that is not finite (names the point).
+void checkFinite(const std::vector<Vec3>& points);
+
 /// All indices of the points, neighbours in space mostly near each other, the first ones spread
 /// over all: the order in which a Delaunay triangulation is built fastest, and in which arrays
 /// about the points are read with the fewest cache misses. The same for the same points.
@@ -33,6 +38,12 @@ public:
   /// \throws InvalidGeometry for a coordinate that is not finite (names the point), fewer than four
   /// different points, or points that all lie in one plane. \throws Cancelled.
   Tetrahedralization(const std::vector<Vec3>& points, const Progress& progress);
+  /// Of a triangulation that exists, whose vertices are numbered as the points. Numbers its cells.
+  Tetrahedralization(const std::vector<Vec3>& points, const DelaunayTriangulation& delaunay,
+    const Progress& progress);
+
+  /// Corners of facet i of a cell, counter-clockwise seen from outside of the cell.
+  static constexpr int kFacetCorners[4][3] = { { 1, 2, 3 }, { 0, 3, 2 }, { 0, 1, 3 }, { 0, 2, 1 } };
 
   const std::vector<Vec3>& points() const { return *points_; }
   std::int32_t cellCount() const { return static_cast<std::int32_t>(cells_.size()); }
@@ -66,6 +77,7 @@ public:
   Star star(std::int32_t vertex) const;
 
 private:
+  void copy(const DelaunayTriangulation& delaunay, const Progress& progress);
   void collectStars(const Progress& progress);
 
   const std::vector<Vec3>* points_;

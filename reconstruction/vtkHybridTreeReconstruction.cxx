@@ -2,9 +2,10 @@
 #include "vtkHybridTreeReconstruction.h"
 
 #include "core/base/Error.h"
-#include "core/base/Progress.h"
 #include "core/nodes/MeshNode.h"
 #include "reconstruction/Convection.h"
+#include "reconstruction/FilterProgress.h"
+#include "reconstruction/LevelOfDetail.h"
 #include "reconstruction/PointCloud.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -24,6 +25,8 @@
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkStringArray.h"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace
@@ -31,26 +34,6 @@ namespace
 
 constexpr const char* kNormals = "Normals";
 constexpr const char* kPointIds = "PointIds";
-
-// Progress is reported on the filter's own thread only; any thread may ask whether to stop.
-class FilterProgress final : public hybridtree::Progress
-{
-public:
-  explicit FilterProgress(vtkAlgorithm* algorithm) : Algorithm(algorithm) {}
-  void report(double fraction) const override
-  {
-    if (fraction >= this->Reported + 0.01)
-    {
-      this->Reported = fraction;
-      this->Algorithm->UpdateProgress(fraction);
-    }
-  }
-  bool cancelled() const override { return this->Algorithm->GetAbortExecute() != 0; }
-
-private:
-  vtkAlgorithm* Algorithm;
-  mutable double Reported = 0.0;
-};
 
 std::vector<hybridtree::Vec3> readPoints(vtkDataSet* input)
 {
@@ -227,7 +210,26 @@ void vtkHybridTreeReconstruction::Reconstruct(vtkDataSet* input, vtkPolyData* ou
   ConvectionOptions options;
   options.openPockets = this->OpenPockets;
   options.pocketFactor = this->PocketFactor;
-  ReconstructedSurface surface = reconstruct(points, options, ProgressPart(progress, 0.2, 1.0));
+  const ProgressPart part(progress, 0.2, 1.0);
+  hybridtree::LevelOfDetail detail;
+  switch (this->LevelOfDetail)
+  {
+    case TOLERANCE:
+      detail.tolerance = this->Tolerance;
+      break;
+    case TARGET_VERTICES:
+      detail.vertices = static_cast<std::size_t>(this->TargetVertices);
+      break;
+    case DETAIL_LEVEL:
+      detail.vertices = std::max<std::size_t>(
+        4, static_cast<std::size_t>(std::lround(this->DetailLevel * double(points.size()))));
+      break;
+    default:
+      break;
+  }
+  ReconstructedSurface surface = this->LevelOfDetail == ALL_POINTS
+    ? reconstruct(points, options, part)
+    : reconstruct(points, detail, options, part);
   for (std::int32_t& id : surface.pointIds)
   {
     id = chosen[id];
@@ -255,4 +257,8 @@ void vtkHybridTreeReconstruction::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "OutlierDeviation: " << this->OutlierDeviation << "\n";
   os << indent << "OpenPockets: " << this->OpenPockets << "\n";
   os << indent << "PocketFactor: " << this->PocketFactor << "\n";
+  os << indent << "LevelOfDetail: " << this->LevelOfDetail << "\n";
+  os << indent << "Tolerance: " << this->Tolerance << "\n";
+  os << indent << "TargetVertices: " << this->TargetVertices << "\n";
+  os << indent << "DetailLevel: " << this->DetailLevel << "\n";
 }

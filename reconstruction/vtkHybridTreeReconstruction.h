@@ -4,14 +4,15 @@
  * @brief   closed triangle mesh through the points of a data set
  *
  * The input is anything with points; its cells are ignored. Points that coincide count once,
- * outliers are removed and the rest is thinned if asked for; geometric convection over their
+ * outliers are removed and the rest is thinned if asked for, or picked by a level of detail while
+ * the surface is made; geometric convection over their
  * Delaunay tetrahedralization then gives the surface of a solid ([HT] 3; Chaine 2003): closed,
  * 2-manifold, oriented outward, its vertices a subset of the input's points, bit for bit.
  *
  * Output point data: Normals (unit, outward, area weighted), PointIds (index of the input point)
  * and the input's point arrays but for one called Normals. Cell data: SourceId, 0 throughout, with
- * the leaf's name in the field data SourceNames. The output is a node of the HybridTree, a mesh leaf
- * with a tenth of its diagonal as radius of influence.
+ * the leaf's name in the field data SourceNames. The output is a node of the HybridTree, a mesh
+ * leaf with a tenth of its diagonal as radius of influence.
  *
  * Pieces: the first piece is everything, all other pieces are empty; the input is asked for as one
  * piece.
@@ -87,6 +88,53 @@ public:
   vtkGetMacro(PocketFactor, double);
   ///@}
 
+  enum LevelOfDetails
+  {
+    ALL_POINTS = 0,
+    TOLERANCE = 1,
+    TARGET_VERTICES = 2,
+    DETAIL_LEVEL = 3
+  };
+
+  ///@{
+  /**
+   * What decides how many points become vertices: ALL_POINTS (default) uses each, the others pick
+   * points while they reconstruct, many where the surface bends and few where it is flat.
+   */
+  vtkSetClampMacro(LevelOfDetail, int, ALL_POINTS, DETAIL_LEVEL);
+  vtkGetMacro(LevelOfDetail, int);
+  void SetLevelOfDetailToAllPoints() { this->SetLevelOfDetail(ALL_POINTS); }
+  void SetLevelOfDetailToTolerance() { this->SetLevelOfDetail(TOLERANCE); }
+  void SetLevelOfDetailToTargetVertices() { this->SetLevelOfDetail(TARGET_VERTICES); }
+  void SetLevelOfDetailToDetailLevel() { this->SetLevelOfDetail(DETAIL_LEVEL); }
+  ///@}
+
+  ///@{
+  /**
+   * For TOLERANCE: greatest distance of an input point to the surface, world units, > 0, default
+   * 0.01. A warning tells of points that stay farther off whatever is done.
+   */
+  vtkSetMacro(Tolerance, double);
+  vtkGetMacro(Tolerance, double);
+  ///@}
+
+  ///@{
+  /**
+   * For TARGET_VERTICES: vertices of the surface, 4 or more, default 30000. All points are used
+   * where there are no more.
+   */
+  vtkSetClampMacro(TargetVertices, int, 4, VTK_INT_MAX);
+  vtkGetMacro(TargetVertices, int);
+  ///@}
+
+  ///@{
+  /**
+   * For DETAIL_LEVEL: share of the points that become vertices, 0.001 to 1, no unit, default 0.25.
+   */
+  vtkSetClampMacro(DetailLevel, double, 0.001, 1.0);
+  vtkGetMacro(DetailLevel, double);
+  ///@}
+
 protected:
   vtkHybridTreeReconstruction();
   ~vtkHybridTreeReconstruction() override;
@@ -105,6 +153,10 @@ protected:
   double OutlierDeviation = 2.0;
   bool OpenPockets = true;
   double PocketFactor = 6.0;
+  int LevelOfDetail = ALL_POINTS;
+  double Tolerance = 0.01;
+  int TargetVertices = 30000;
+  double DetailLevel = 0.25;
 
 private:
   vtkHybridTreeReconstruction(const vtkHybridTreeReconstruction&) = delete;
