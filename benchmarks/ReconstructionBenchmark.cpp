@@ -5,6 +5,7 @@
 // reported as skipped.
 
 #include "reconstruction/Convection.h"
+#include "reconstruction/LevelOfDetail.h"
 #include "tests/reconstruction/DemoPoints.h"
 #include "tests/reconstruction/Samples.h"
 #include "tests/support/TestMeshes.h"
@@ -89,6 +90,33 @@ void convection(benchmark::State& state)
   measure(state, [](const PointSet& points) { return reconstruct(points).mesh.triangles.size(); });
 }
 
+// At the level of detail of Figure 3 of [HT]: 31,126 of 134,344 points.
+void levelOfDetail(benchmark::State& state)
+{
+  measure(state,
+    [](const PointSet& points)
+    {
+      const LevelOfDetail detail{ 0.0, points.size() * 31126 / 134344 };
+      return reconstruct(points, detail).mesh.triangles.size();
+    });
+}
+
+// Every point within 0.3 % of the diagonal.
+void tolerance(benchmark::State& state)
+{
+  measure(state,
+    [](const PointSet& points)
+    {
+      Box3 box;
+      for (const Vec3& p : points)
+      {
+        box.extend(p);
+      }
+      const LevelOfDetail detail{ 0.003 * box.diagonal().norm(), 0 };
+      return reconstruct(points, detail).mesh.triangles.size();
+    });
+}
+
 void cgalDelaunay(benchmark::State& state)
 {
   measure(state,
@@ -121,6 +149,8 @@ void allSets(benchmark::internal::Benchmark* timing)
 BENCHMARK(cgalDelaunay)->Apply(allSets);
 BENCHMARK(cgalAdvancingFront)->Apply(allSets);
 BENCHMARK(convection)->Apply(allSets);
+BENCHMARK(levelOfDetail)->Apply(allSets);
+BENCHMARK(tolerance)->Apply(allSets);
 
 } // namespace
 

@@ -24,6 +24,8 @@ namespace
 constexpr double kFlat = 0.35;
 // Share of the wanted vertices in the first subset; the others go where the surface misses most.
 constexpr double kFirstShare = 0.85;
+// Share of the wanted vertices that will do: the last few would take as long as all others.
+constexpr double kEnough = 0.98;
 // How often convection may start anew for points that could not be taken up.
 constexpr int kRestarts = 3;
 constexpr int kMostRounds = 60;
@@ -58,6 +60,7 @@ private:
   void measureTouched();
   std::vector<std::int32_t> candidates() const;
   std::size_t vertexCount() const;
+  bool hasEnough() const;
   void place(const std::vector<std::int32_t>& points, const Progress& progress);
   void refine(const Progress& progress);
   void startAnew(const Progress& progress);
@@ -243,7 +246,6 @@ void Refinement::measureAll()
 // Measures again where triangles have gone. Triangles that are left are as near as they were.
 void Refinement::measureTouched()
 {
-  triangles_ = surface_.surface();
   std::vector<std::uint8_t> touched(surface_.sites().size(), 0);
   for (const std::int32_t site : surface_.takeTouched())
   {
@@ -296,6 +298,11 @@ std::size_t Refinement::vertexCount() const
   return static_cast<std::size_t>(std::count(seen.begin(), seen.end(), 1));
 }
 
+bool Refinement::hasEnough() const
+{
+  return this->wantsVertices() && double(this->vertexCount()) >= kEnough * double(detail_.vertices);
+}
+
 void Refinement::place(const std::vector<std::int32_t>& points, const Progress& progress)
 {
   std::size_t step = 0;
@@ -332,11 +339,6 @@ void Refinement::refine(const Progress& progress)
   {
     progress.check();
     progress.report(1.0 - 1.0 / (1.0 + round));
-    const std::size_t vertices = this->wantsVertices() ? this->vertexCount() : 0;
-    if (this->wantsVertices() && vertices >= detail_.vertices)
-    {
-      return;
-    }
     std::vector<std::int32_t> chosen = this->candidates();
     if (chosen.empty() && !this->wantsVertices())
     {
@@ -346,13 +348,20 @@ void Refinement::refine(const Progress& progress)
     }
     if (this->wantsVertices())
     {
-      chosen.resize(std::min(chosen.size(), detail_.vertices - vertices));
+      const std::size_t vertices = this->vertexCount();
+      chosen.resize(
+        std::min(chosen.size(), detail_.vertices - std::min(vertices, detail_.vertices)));
     }
     if (chosen.empty())
     {
       return;
     }
     this->place(chosen, progress);
+    triangles_ = surface_.surface();
+    if (this->hasEnough())
+    {
+      return;
+    }
     this->measureTouched();
   }
 }

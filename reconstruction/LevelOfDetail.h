@@ -14,8 +14,8 @@ struct LevelOfDetail
 {
   /// Greatest distance of any input point to the surface, world units, > 0; 0: not asked for.
   double tolerance = 0.0;
-  /// Vertices of the surface, >= 4; 0: not asked for. Met within a few, unless the input has not
-  /// so many points that the surface can use.
+  /// Vertices of the surface, >= 4; 0: not asked for. Met within 2 in 100, unless the input has
+  /// not so many points that the surface can use.
   std::size_t vertices = 0;
 };
 

@@ -90,6 +90,37 @@ TEST(ReconstructionFilter, ThinsAndCleans)
   EXPECT_LT(filter->GetOutput()->GetBounds()[5], 2.0);
 }
 
+TEST(ReconstructionFilter, FollowsTheLevelOfDetail)
+{
+  vtkNew<vtkPolyData> input;
+  fill(input, randomTorus(1.0, 0.4, 8000, 3), VTK_DOUBLE);
+  vtkNew<vtkHybridTreeReconstruction> filter;
+  filter->SetInputData(input);
+  filter->SetLevelOfDetailToTargetVertices();
+  filter->SetTargetVertices(2000);
+  filter->Update();
+  EXPECT_NEAR(filter->GetOutput()->GetNumberOfPoints(), 2000, 100);
+  filter->SetLevelOfDetailToDetailLevel();
+  filter->SetDetailLevel(0.125);
+  filter->Update();
+  EXPECT_NEAR(filter->GetOutput()->GetNumberOfPoints(), 1000, 50);
+  filter->SetLevelOfDetailToTolerance();
+  filter->SetTolerance(0.02);
+  filter->Update();
+  const vtkIdType coarse = filter->GetOutput()->GetNumberOfPoints();
+  filter->SetTolerance(0.005);
+  filter->Update();
+  EXPECT_LT(coarse, filter->GetOutput()->GetNumberOfPoints());
+  auto* ids =
+    vtkIdTypeArray::SafeDownCast(filter->GetOutput()->GetPointData()->GetArray("PointIds"));
+  auto* numbers = filter->GetOutput()->GetPointData()->GetArray("Number");
+  ASSERT_TRUE(ids && numbers);
+  for (vtkIdType k = 0; k < filter->GetOutput()->GetNumberOfPoints(); ++k)
+  {
+    ASSERT_EQ(numbers->GetTuple1(k), ids->GetValue(k)); // arrays follow the points picked
+  }
+}
+
 TEST(ReconstructionFilter, TakesAnyDataSet)
 {
   vtkNew<vtkImageData> image;
