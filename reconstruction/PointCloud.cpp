@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "reconstruction/PointCloud.h"
 
-#include "core/base/Error.h"
+#include "reconstruction/ParallelSort.h"
 
-#include <pcl/filters/statistical_outlier_removal.h>
+#include "core/base/Error.h"
+#include "core/base/Parallel.h"
+
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
 #include <pcl/search/kdtree.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <string>
@@ -66,6 +69,46 @@ std::vector<std::int32_t> pick(
   return kept;
 }
 
+struct Place
+{
+  std::array<double, 3> coordinates;
+  std::size_t index;
+  bool operator<(const Place& other) const
+  {
+    return std::tie(coordinates, index) < std::tie(other.coordinates, other.index);
+  }
+};
+
+// Per chosen point, the mean distance to its nearest neighbours, in units of the whole's size.
+// \pre there are more points than neighbors.
+std::vector<double> meanDistances(const std::vector<Vec3>& points,
+  const std::vector<std::int32_t>& chosen, int neighbors, const Progress& progress)
+{
+  progress.check();
+  const FloatCloud scaled = toFloat(points, chosen);
+  pcl::search::KdTree<pcl::PointXYZ> tree;
+  tree.setInputCloud(scaled.cloud);
+  std::vector<double> distances(chosen.size());
+  parallelFor(chosen.size(), 1024,
+    [&](std::size_t begin, std::size_t end)
+    {
+      progress.check();
+      pcl::Indices nearest;
+      std::vector<float> squared;
+      for (std::size_t k = begin; k < end; ++k)
+      {
+        tree.nearestKSearch((*scaled.cloud)[k], neighbors + 1, nearest, squared); // and itself
+        double sum = 0.0;
+        for (const float distance : squared)
+        {
+          sum += std::sqrt(double(distance));
+        }
+        distances[k] = sum / neighbors;
+      }
+    });
+  return distances;
+}
+
 void tell(const Progress& progress, std::size_t done, std::size_t all)
 {
   if (done % 1024 == 0)
@@ -84,24 +127,21 @@ std::vector<std::int32_t> allPoints(const std::vector<Vec3>& points)
   return all;
 }
 
-std::vector<std::int32_t> withoutDuplicates(
-  const std::vector<Vec3>& points, const std::vector<std::int32_t>& chosen)
+std::vector<std::int32_t> withoutDuplicates(const std::vector<Vec3>& points,
+  const std::vector<std::int32_t>& chosen, const Progress& progress)
 {
   // Equal in double, not merely in PCL's float.
-  std::vector<std::size_t> order(chosen.size());
-  std::iota(order.begin(), order.end(), std::size_t(0));
-  const auto coordinates = [&](std::size_t k) -> const Vec3& { return points[chosen[k]]; };
-  std::sort(order.begin(), order.end(),
-    [&](std::size_t a, std::size_t b)
-    {
-      const Vec3& p = coordinates(a);
-      const Vec3& q = coordinates(b);
-      return std::tie(p.x(), p.y(), p.z(), a) < std::tie(q.x(), q.y(), q.z(), b);
-    });
-  std::vector<std::uint8_t> keep(chosen.size(), 1);
-  for (std::size_t k = 1; k < order.size(); ++k)
+  std::vector<Place> places(chosen.size());
+  for (std::size_t k = 0; k < chosen.size(); ++k)
   {
-    keep[order[k]] = coordinates(order[k]) != coordinates(order[k - 1]);
+    const Vec3& p = points[chosen[k]];
+    places[k] = { { p.x(), p.y(), p.z() }, k };
+  }
+  parallelSort(places, progress);
+  std::vector<std::uint8_t> keep(chosen.size(), 1);
+  for (std::size_t k = 1; k < places.size(); ++k)
+  {
+    keep[places[k].index] = places[k].coordinates != places[k - 1].coordinates;
   }
   return pick(chosen, keep);
 }
@@ -122,19 +162,20 @@ std::vector<std::int32_t> withoutOutliers(const std::vector<Vec3>& points,
   {
     return chosen; // nobody has that many neighbours
   }
-  progress.check();
-  pcl::StatisticalOutlierRemoval<pcl::PointXYZ> filter;
-  filter.setInputCloud(toFloat(points, chosen).cloud);
-  filter.setMeanK(neighbors);
-  filter.setStddevMulThresh(deviation);
-  pcl::Indices kept;
-  filter.filter(kept);
-  progress.check();
-  std::vector<std::uint8_t> keep(chosen.size(), 0);
-  for (const auto index : kept)
+  // As pcl::StatisticalOutlierRemoval does it, which neither looks up nor uses more than one
+  // thread.
+  const std::vector<double> distances = meanDistances(points, chosen, neighbors, progress);
+  const auto count = static_cast<double>(distances.size());
+  const double mean = std::accumulate(distances.begin(), distances.end(), 0.0) / count;
+  double squares = 0.0;
+  for (const double distance : distances)
   {
-    keep[index] = 1;
+    squares += (distance - mean) * (distance - mean);
   }
+  const double most = mean + deviation * std::sqrt(squares / (count - 1.0));
+  std::vector<std::uint8_t> keep(chosen.size(), 0);
+  std::transform(distances.begin(), distances.end(), keep.begin(),
+    [&](double distance) { return std::uint8_t(distance <= most); });
   return pick(chosen, keep);
 }
 

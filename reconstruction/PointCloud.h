@@ -21,8 +21,8 @@ namespace hybridtree
 std::vector<std::int32_t> allPoints(const std::vector<Vec3>& points);
 
 /// Of points with exactly equal coordinates, the first.
-std::vector<std::int32_t> withoutDuplicates(
-  const std::vector<Vec3>& points, const std::vector<std::int32_t>& chosen);
+std::vector<std::int32_t> withoutDuplicates(const std::vector<Vec3>& points,
+  const std::vector<std::int32_t>& chosen, const Progress& progress = Progress::none());
 
 /// Statistical outlier removal: drops points whose mean distance to their nearest neighbours is
 /// more than `deviation` standard deviations above the mean of all points'.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "reconstruction/Regions.h"
 
+#include "reconstruction/ParallelSort.h"
+
 #include "core/base/Parallel.h"
 
 #include <algorithm>
@@ -33,33 +35,6 @@ struct Passage
   }
 };
 
-// Blocks on their own, then two and two together.
-void sort(std::vector<Passage>& passages, const Progress& progress)
-{
-  const std::size_t count = passages.size();
-  const auto at = [&](std::size_t k)
-  { return passages.begin() + static_cast<std::ptrdiff_t>(std::min(k, count)); };
-  parallelFor(count, kBreath,
-    [&](std::size_t begin, std::size_t end)
-    {
-      progress.check();
-      std::sort(at(begin), at(end));
-    });
-  for (std::size_t width = kBreath; width < count; width *= 2)
-  {
-    parallelFor((count + 2 * width - 1) / (2 * width), 1,
-      [&](std::size_t begin, std::size_t end)
-      {
-        for (std::size_t pair = begin; pair < end; ++pair)
-        {
-          progress.check();
-          const std::size_t first = 2 * width * pair;
-          std::inplace_merge(at(first), at(first + width), at(first + 2 * width));
-        }
-      });
-  }
-}
-
 // Widest first.
 std::vector<Passage> widePassages(const Tetrahedralization& tetrahedra, const FacetSize& sizes,
   double wide, const Progress& progress)
@@ -90,7 +65,7 @@ std::vector<Passage> widePassages(const Tetrahedralization& tetrahedra, const Fa
     passages.insert(passages.end(), part.begin(), part.end());
     std::vector<Passage>().swap(part);
   }
-  sort(passages, progress);
+  parallelSort(passages, progress);
   return passages;
 }
 

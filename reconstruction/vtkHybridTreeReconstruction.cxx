@@ -194,7 +194,7 @@ void vtkHybridTreeReconstruction::Reconstruct(vtkDataSet* input, vtkPolyData* ou
   using namespace hybridtree;
   const FilterProgress progress(this);
   const std::vector<Vec3> all = readPoints(input);
-  std::vector<std::int32_t> chosen = withoutDuplicates(all, allPoints(all));
+  std::vector<std::int32_t> chosen = withoutDuplicates(all, allPoints(all), progress);
   if (this->RemoveOutliers)
   {
     chosen = withoutOutliers(all, chosen, this->OutlierNeighbors, this->OutlierDeviation,
