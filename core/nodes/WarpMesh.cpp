@@ -389,6 +389,7 @@ void mendShapes(TriangleMesh& mesh, double edgeLength, const Progress& progress)
       longest = std::max(longest, sideLength(mesh.points, triangle, side) / kLongEdge);
     }
   }
+  longest *= 1.0 + 1e-9; // the longest edge itself is not to be split by rounding
   RemeshOptions options;
   options.shortEdge *= edgeLength / longest;
   options.edgeLength = longest;
