@@ -15,7 +15,7 @@ def core(*rooms, extra=()):
 BELOW_NODES = ("base", "geometry", "mesh", "boolean", "skeletons", "polygonize", "stitch")
 SIMD = (r"hwy/.*", r"core/[a-z]+/[A-Za-z]+\.cpp")  # Highway compiles a source once per target
 # What VTK calls itself, without ParaView's own classes.
-VTK = [r"vtk(?!PV|SM|SI)[A-Za-z0-9]+\.h", r"HybridTree[A-Za-z]+Module\.h"]
+VTK = [r"vtksys/.*", r"vtk(?!PV|SM|SI)[A-Za-z0-9]+\.h", r"HybridTree[A-Za-z]+Module\.h"]
 
 ALLOWED = {
     "core/base": core("base", extra=(r"tbb/.*", r"oneapi/.*")),
