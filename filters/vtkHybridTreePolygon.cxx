@@ -9,56 +9,13 @@ vtkStandardNewMacro(vtkHybridTreePolygon);
 //------------------------------------------------------------------------------
 vtkHybridTreePolygon::vtkHybridTreePolygon()
 {
+  this->Points = { { -0.5, -0.5, 0.0 }, { 0.5, -0.5, 0.0 }, { 0.5, 0.0, 0.0 }, { 0.0, 0.0, 0.0 },
+    { 0.0, 0.5, 0.0 }, { -0.5, 0.5, 0.0 } };
   this->SurfaceRadius = 0.1;
   this->InfluenceRadius = 0.5;
 }
 
 vtkHybridTreePolygon::~vtkHybridTreePolygon() = default;
-
-//------------------------------------------------------------------------------
-void vtkHybridTreePolygon::SetNumberOfPoints(int count)
-{
-  if (count < 0 || count == this->GetNumberOfPoints())
-  {
-    return;
-  }
-  this->Points.resize(static_cast<std::size_t>(count), { 0.0, 0.0, 0.0 });
-  this->Modified();
-}
-
-//------------------------------------------------------------------------------
-int vtkHybridTreePolygon::GetNumberOfPoints() const
-{
-  return static_cast<int>(this->Points.size());
-}
-
-//------------------------------------------------------------------------------
-void vtkHybridTreePolygon::SetPoint(int index, double x, double y, double z)
-{
-  if (index < 0 || index >= this->GetNumberOfPoints())
-  {
-    vtkErrorMacro(<< "There is no point " << index << " of " << this->GetNumberOfPoints()
-                  << "; call SetNumberOfPoints first.");
-    return;
-  }
-  const std::array<double, 3> point = { x, y, z };
-  if (this->Points[static_cast<std::size_t>(index)] != point)
-  {
-    this->Points[static_cast<std::size_t>(index)] = point;
-    this->Modified();
-  }
-}
-
-//------------------------------------------------------------------------------
-void vtkHybridTreePolygon::GetPoint(int index, double point[3]) const
-{
-  const bool exists = index >= 0 && index < this->GetNumberOfPoints();
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    point[axis] =
-      exists ? this->Points[static_cast<std::size_t>(index)][static_cast<std::size_t>(axis)] : 0.0;
-  }
-}
 
 //------------------------------------------------------------------------------
 std::shared_ptr<const hybridtree::Skeleton> vtkHybridTreePolygon::MakeSkeleton()
@@ -75,9 +32,4 @@ std::shared_ptr<const hybridtree::Skeleton> vtkHybridTreePolygon::MakeSkeleton()
 void vtkHybridTreePolygon::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Points: " << this->Points.size() << "\n";
-  for (const std::array<double, 3>& point : this->Points)
-  {
-    os << indent.GetNextIndent() << point[0] << " " << point[1] << " " << point[2] << "\n";
-  }
 }

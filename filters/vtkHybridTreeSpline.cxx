@@ -6,61 +6,18 @@
 #include "core/skeletons/Spline.h"
 #include "vtkObjectFactory.h"
 
-#include <algorithm>
-
 vtkStandardNewMacro(vtkHybridTreeSpline);
 
 //------------------------------------------------------------------------------
 vtkHybridTreeSpline::vtkHybridTreeSpline()
-  : Points{ { -1.0, 0.0, 0.0 }, { -0.3, 0.5, 0.0 }, { 0.3, -0.5, 0.0 }, { 1.0, 0.0, 0.0 } }
 {
+  this->Points = { { -1.0, 0.0, 0.0 }, { -0.3, 0.5, 0.0 }, { 0.3, -0.5, 0.0 }, { 1.0, 0.0, 0.0 } };
   // The bends of the default curve leave room for this.
   this->SurfaceRadius = 0.15;
   this->InfluenceRadius = 0.3;
 }
 
 vtkHybridTreeSpline::~vtkHybridTreeSpline() = default;
-
-//------------------------------------------------------------------------------
-void vtkHybridTreeSpline::SetNumberOfPoints(int count)
-{
-  const auto size = static_cast<std::size_t>(std::max(count, 0));
-  if (size != this->Points.size())
-  {
-    this->Points.resize(size, { 0.0, 0.0, 0.0 });
-    this->Modified();
-  }
-}
-
-//------------------------------------------------------------------------------
-int vtkHybridTreeSpline::GetNumberOfPoints() const
-{
-  return static_cast<int>(this->Points.size());
-}
-
-//------------------------------------------------------------------------------
-void vtkHybridTreeSpline::SetPoint(int index, double x, double y, double z)
-{
-  if (index < 0 || index >= this->GetNumberOfPoints())
-  {
-    vtkErrorMacro("There is no point " << index << ": Points has " << this->GetNumberOfPoints()
-                                       << ". Call SetNumberOfPoints first.");
-    return;
-  }
-  const std::array<double, 3> point{ x, y, z };
-  if (this->Points[static_cast<std::size_t>(index)] != point)
-  {
-    this->Points[static_cast<std::size_t>(index)] = point;
-    this->Modified();
-  }
-}
-
-//------------------------------------------------------------------------------
-void vtkHybridTreeSpline::GetPoint(int index, double point[3]) const
-{
-  const auto& values = this->Points.at(static_cast<std::size_t>(index));
-  std::copy(values.begin(), values.end(), point);
-}
 
 //------------------------------------------------------------------------------
 std::shared_ptr<const hybridtree::Skeleton> vtkHybridTreeSpline::MakeSkeleton()
@@ -86,12 +43,6 @@ std::shared_ptr<const hybridtree::Skeleton> vtkHybridTreeSpline::MakeSkeleton()
 void vtkHybridTreeSpline::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Points:";
-  for (const auto& point : this->Points)
-  {
-    os << " (" << point[0] << ", " << point[1] << ", " << point[2] << ")";
-  }
-  os << "\n";
   os << indent << "Kind: " << this->Kind << "\n";
   os << indent << "Closed: " << this->Closed << "\n";
   os << indent << "LevelOfDetail: " << this->LevelOfDetail << "\n";

@@ -4,22 +4,22 @@
  * @brief   implicit primitive around a cubic spline: a tube
  *
  * LevelOfDetail leaves points of the curve out, so that the field is cheaper to evaluate.
+ *
+ * The points make the curve; repeats of one are dropped where the curve goes through them. Default
+ * (-1, 0, 0), (-0.3, 0.5, 0), (0.3, -0.5, 0), (1, 0, 0).
  */
 
 #ifndef vtkHybridTreeSpline_h
 #define vtkHybridTreeSpline_h
 
 #include "HybridTreeFiltersModule.h" // for export macro
-#include "vtkHybridTreeFieldAlgorithm.h"
+#include "vtkHybridTreePointsAlgorithm.h"
 
-#include <array>  // for Points
-#include <vector> // for Points
-
-class HYBRIDTREEFILTERS_EXPORT vtkHybridTreeSpline : public vtkHybridTreeFieldAlgorithm
+class HYBRIDTREEFILTERS_EXPORT vtkHybridTreeSpline : public vtkHybridTreePointsAlgorithm
 {
 public:
   static vtkHybridTreeSpline* New();
-  vtkTypeMacro(vtkHybridTreeSpline, vtkHybridTreeFieldAlgorithm);
+  vtkTypeMacro(vtkHybridTreeSpline, vtkHybridTreePointsAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   enum KindType
@@ -27,17 +27,6 @@ public:
     CATMULL_ROM = 0,
     B_SPLINE = 1
   };
-
-  ///@{
-  /**
-   * The points that make the curve, world units. Repeats of a point are dropped where the curve
-   * goes through them. Default (-1, 0, 0), (-0.3, 0.5, 0), (0.3, -0.5, 0), (1, 0, 0).
-   */
-  void SetNumberOfPoints(int count);
-  int GetNumberOfPoints() const;
-  void SetPoint(int index, double x, double y, double z);
-  void GetPoint(int index, double point[3]) const;
-  ///@}
 
   ///@{
   /**
@@ -80,10 +69,6 @@ protected:
   int LevelOfDetail = 4;
 
 private:
-#ifndef __VTK_WRAP__
-  std::vector<std::array<double, 3>> Points;
-#endif
-
   vtkHybridTreeSpline(const vtkHybridTreeSpline&) = delete;
   void operator=(const vtkHybridTreeSpline&) = delete;
 };

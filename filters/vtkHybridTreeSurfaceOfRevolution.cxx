@@ -8,60 +8,17 @@
 #include "core/skeletons/Validate.h"
 #include "vtkObjectFactory.h"
 
-#include <algorithm>
-
 vtkStandardNewMacro(vtkHybridTreeSurfaceOfRevolution);
 
 //------------------------------------------------------------------------------
 vtkHybridTreeSurfaceOfRevolution::vtkHybridTreeSurfaceOfRevolution()
-  : Points{ { 0.6, 0.0, -1.0 }, { 0.9, 0.0, -0.4 }, { 0.4, 0.0, 0.4 }, { 0.5, 0.0, 1.0 } }
 {
+  this->Points = { { 0.6, 0.0, -1.0 }, { 0.9, 0.0, -0.4 }, { 0.4, 0.0, 0.4 }, { 0.5, 0.0, 1.0 } };
   this->SurfaceRadius = 0.1;
   this->InfluenceRadius = 0.5;
 }
 
 vtkHybridTreeSurfaceOfRevolution::~vtkHybridTreeSurfaceOfRevolution() = default;
-
-//------------------------------------------------------------------------------
-void vtkHybridTreeSurfaceOfRevolution::SetNumberOfPoints(int count)
-{
-  const auto size = static_cast<std::size_t>(std::max(count, 0));
-  if (size != this->Points.size())
-  {
-    this->Points.resize(size, { 0.0, 0.0, 0.0 });
-    this->Modified();
-  }
-}
-
-//------------------------------------------------------------------------------
-int vtkHybridTreeSurfaceOfRevolution::GetNumberOfPoints() const
-{
-  return static_cast<int>(this->Points.size());
-}
-
-//------------------------------------------------------------------------------
-void vtkHybridTreeSurfaceOfRevolution::SetPoint(int index, double x, double y, double z)
-{
-  if (index < 0 || index >= this->GetNumberOfPoints())
-  {
-    vtkErrorMacro("There is no point " << index << ": Points has " << this->GetNumberOfPoints()
-                                       << ". Call SetNumberOfPoints first.");
-    return;
-  }
-  const std::array<double, 3> point{ x, y, z };
-  if (this->Points[static_cast<std::size_t>(index)] != point)
-  {
-    this->Points[static_cast<std::size_t>(index)] = point;
-    this->Modified();
-  }
-}
-
-//------------------------------------------------------------------------------
-void vtkHybridTreeSurfaceOfRevolution::GetPoint(int index, double point[3]) const
-{
-  const auto& values = this->Points.at(static_cast<std::size_t>(index));
-  std::copy(values.begin(), values.end(), point);
-}
 
 //------------------------------------------------------------------------------
 std::shared_ptr<const hybridtree::Skeleton> vtkHybridTreeSurfaceOfRevolution::MakeSkeleton()
@@ -93,12 +50,6 @@ std::shared_ptr<const hybridtree::Skeleton> vtkHybridTreeSurfaceOfRevolution::Ma
 void vtkHybridTreeSurfaceOfRevolution::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Points:";
-  for (const auto& point : this->Points)
-  {
-    os << " (" << point[0] << ", " << point[1] << ", " << point[2] << ")";
-  }
-  os << "\n";
   os << indent << "Kind: " << this->Kind << "\n";
   os << indent << "Closed: " << this->Closed << "\n";
   os << indent << "Origin: (" << this->Origin[0] << ", " << this->Origin[1] << ", "

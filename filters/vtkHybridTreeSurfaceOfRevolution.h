@@ -8,22 +8,23 @@
  * (or what a closed profile encloses), otherwise it is a wall of twice SurfaceRadius.
  *
  * LevelOfDetail leaves points of the profile out, so that the field is cheaper to evaluate.
+ *
+ * The points are the profile, from one end of the axis to the other; repeats are dropped. Default
+ * (0.6, 0, -1), (0.9, 0, -0.4), (0.4, 0, 0.4), (0.5, 0, 1): a vase.
  */
 
 #ifndef vtkHybridTreeSurfaceOfRevolution_h
 #define vtkHybridTreeSurfaceOfRevolution_h
 
 #include "HybridTreeFiltersModule.h" // for export macro
-#include "vtkHybridTreeFieldAlgorithm.h"
+#include "vtkHybridTreePointsAlgorithm.h"
 
-#include <array>  // for Points
-#include <vector> // for Points
-
-class HYBRIDTREEFILTERS_EXPORT vtkHybridTreeSurfaceOfRevolution : public vtkHybridTreeFieldAlgorithm
+class HYBRIDTREEFILTERS_EXPORT vtkHybridTreeSurfaceOfRevolution
+  : public vtkHybridTreePointsAlgorithm
 {
 public:
   static vtkHybridTreeSurfaceOfRevolution* New();
-  vtkTypeMacro(vtkHybridTreeSurfaceOfRevolution, vtkHybridTreeFieldAlgorithm);
+  vtkTypeMacro(vtkHybridTreeSurfaceOfRevolution, vtkHybridTreePointsAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   enum KindType
@@ -32,17 +33,6 @@ public:
     B_SPLINE = 1,
     POLYLINE = 2
   };
-
-  ///@{
-  /**
-   * The profile, from one end of the axis to the other, world units. Repeats of a point are
-   * dropped. Default (0.6, 0, -1), (0.9, 0, -0.4), (0.4, 0, 0.4), (0.5, 0, 1): a vase.
-   */
-  void SetNumberOfPoints(int count);
-  int GetNumberOfPoints() const;
-  void SetPoint(int index, double x, double y, double z);
-  void GetPoint(int index, double point[3]) const;
-  ///@}
 
   ///@{
   /**
@@ -114,10 +104,6 @@ protected:
   int LevelOfDetail = 4;
 
 private:
-#ifndef __VTK_WRAP__
-  std::vector<std::array<double, 3>> Points;
-#endif
-
   vtkHybridTreeSurfaceOfRevolution(const vtkHybridTreeSurfaceOfRevolution&) = delete;
   void operator=(const vtkHybridTreeSurfaceOfRevolution&) = delete;
 };

@@ -9,11 +9,11 @@
 #include "core/base/Error.h"
 #include "core/mesh/MeshChecks.h"
 #include "tests/reconstruction/Samples.h"
+#include "tests/support/CancelAt.h"
 #include "tests/support/TestMeshes.h"
 
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <cmath>
 #include <limits>
 
@@ -218,16 +218,6 @@ TEST(Convection, SaysWhatItNeedsBeforeItStarts)
   }
   EXPECT_FALSE(reconstruct(randomSphere(100, 14), options).mesh.empty());
 }
-
-class CancelAt final : public Progress
-{
-public:
-  explicit CancelAt(int check) : left_(check) {}
-  bool cancelled() const override { return --left_ < 0; }
-
-private:
-  mutable std::atomic<int> left_;
-};
 
 TEST(Convection, CanBeCancelledEverywhere)
 {

@@ -6,12 +6,12 @@
 #include "core/mesh/MeshChecks.h"
 #include "core/mesh/MeshDistance.h"
 #include "tests/reconstruction/Samples.h"
+#include "tests/support/CancelAt.h"
 #include "tests/support/TestMeshes.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -221,16 +221,6 @@ TEST(LevelOfDetail, SaysWhatIsWrong)
   broken[7].y() = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(reconstruct(broken, LevelOfDetail{ 0.1, 0 }), InvalidGeometry);
 }
-
-class CancelAt final : public Progress
-{
-public:
-  explicit CancelAt(int check) : left_(check) {}
-  bool cancelled() const override { return --left_ < 0; }
-
-private:
-  mutable std::atomic<int> left_;
-};
 
 TEST(LevelOfDetail, CanBeCancelledEverywhere)
 {

@@ -18,12 +18,12 @@
 #include "core/skeletons/Point.h"
 #include "core/skeletons/Segment.h"
 #include "core/tree/Serialize.h"
+#include "tests/support/CancelAt.h"
 #include "tests/support/Random.h"
 #include "tests/support/TestMeshes.h"
 
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <cmath>
 #include <functional>
 
@@ -216,18 +216,6 @@ TEST(Limits, DustGoesAndTheRestStays)
   EXPECT_EQ(mesh.sourceLeaf, std::vector<std::int32_t>(kept.triangles.size(), 7));
 }
 
-// Stops at the n-th look.
-class StopAfter final : public Progress
-{
-public:
-  explicit StopAfter(int looks) : left_(looks) {}
-  bool cancelled() const override { return left_-- <= 0; }
-  int looksLeft() const { return left_; }
-
-private:
-  mutable std::atomic<int> left_;
-};
-
 // Work that makes many triangles looks often, and stops at whichever look says so.
 TEST(Limits, DeformationsStopWhereverTheyAreAsked)
 {
@@ -235,13 +223,13 @@ TEST(Limits, DeformationsStopWhereverTheyAreAsked)
   frame.begin = -1.0;
   const auto twisted = [&] { return makeTwist(rod(), frame, 20.0); };
   constexpr int kMany = 1 << 30;
-  const StopAfter never(kMany);
+  const CancelAt never(kMany);
   const std::size_t triangles = twisted()->mesh(0.1, never)->triangles.size();
   const int looks = kMany - never.looksLeft();
   EXPECT_GT(looks, static_cast<int>(triangles / 1000)) << "one look for 1000 triangles at least";
   for (int share = 0; share < 4; ++share)
   {
-    const StopAfter stop(share * looks / 5);
+    const CancelAt stop(share * looks / 5);
     const NodePtr node = twisted();
     EXPECT_THROW(node->mesh(0.1, stop), Cancelled) << share;
   }
@@ -374,7 +362,7 @@ TEST(Limits, ExtremeTreesAnswerOrComplain)
     try
     {
       const NodePtr node = Wild(seed).grow(static_cast<int>(seed % 4));
-      const StopAfter stop(1000);
+      const CancelAt stop(1000);
       const MeshPtr mesh = node->mesh(node->defaultEdgeLength() * 4.0, stop);
       for (const Vec3& point : mesh->points)
       {

@@ -13,11 +13,11 @@
 #include "core/nodes/Primitive.h"
 #include "core/skeletons/Point.h"
 #include "core/tree/Serialize.h"
+#include "tests/support/CancelAt.h"
 #include "tests/support/Random.h"
 
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <functional>
 
 namespace hybridtree::test
@@ -192,18 +192,6 @@ TEST(Operator, TheDeepestTreeWorksAndADeeperOneIsRefused)
   EXPECT_THROW(makeFreeForm(node, FreeFormLattice{}, FieldFrom::DeformedMesh), TooLarge);
 }
 
-// Stops the work at the n-th look.
-class StopAfter final : public Progress
-{
-public:
-  explicit StopAfter(int looks) : left_(looks) {}
-  bool cancelled() const override { return left_-- <= 0; }
-  bool wasAsked() const { return left_ < 0; }
-
-private:
-  mutable std::atomic<int> left_;
-};
-
 // The mesh below a blend is made while the blend's is: it has to hear of the stop too.
 TEST(Operator, ShapesThatMakeAMeshForTheirFieldListenToo)
 {
@@ -214,7 +202,7 @@ TEST(Operator, ShapesThatMakeAMeshForTheirFieldListenToo)
   {
     const NodePtr deformed = makeFreeForm(ball(), lattice, FieldFrom::DeformedMesh);
     const NodePtr blend = makeBlend({ deformed, ball(Vec3(0.5, 0.0, 0.0)) });
-    const StopAfter stop(looks);
+    const CancelAt stop(looks);
     EXPECT_THROW(blend->mesh(0.1, stop), Cancelled) << looks;
     EXPECT_FALSE(blend->mesh(0.1)->empty()) << "the next one must find everything in order";
   }
