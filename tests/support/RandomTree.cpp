@@ -2,7 +2,6 @@
 #include "tests/support/RandomTree.h"
 
 #include "core/nodes/Barr.h"
-#include "core/nodes/Blend.h"
 #include "core/nodes/Boolean.h"
 #include "core/nodes/FreeForm.h"
 #include "core/nodes/LocalBlend.h"
@@ -32,7 +31,7 @@ namespace
 class Grower
 {
 public:
-  explicit Grower(std::uint64_t seed) : random_(seed) {}
+  Grower(std::uint64_t seed, const BlendOptions& blends) : random_(seed), blends_(blends) {}
 
   NodePtr grow(int depth)
   {
@@ -48,7 +47,8 @@ public:
         return this->blend(depth - 1);
       case 3:
       case 4:
-        return makeLocalBlend(this->grow(depth - 1), this->grow(depth - 2), this->leaf(false));
+        return makeLocalBlend(
+          this->grow(depth - 1), this->grow(depth - 2), this->leaf(false), blends_);
       case 5:
       case 6:
         return makeBoolean(static_cast<BooleanOperation>(random_.integer(0, 2)),
@@ -183,7 +183,7 @@ private:
       children.push_back(
         random_.chance(0.25) ? this->leaf(true) : this->grow(random_.integer(1, depth)));
     }
-    return makeBlend(std::move(children));
+    return makeBlend(std::move(children), blends_);
   }
 
   NodePtr warp(NodePtr child)
@@ -230,13 +230,14 @@ private:
   }
 
   Random random_;
+  BlendOptions blends_;
 };
 
 } // namespace
 
-NodePtr randomTree(std::uint64_t seed, int depth)
+NodePtr randomTree(std::uint64_t seed, int depth, const BlendOptions& blends)
 {
-  return Grower(seed).grow(depth);
+  return Grower(seed, blends).grow(depth);
 }
 
 Affine3 randomMap(Random& random)

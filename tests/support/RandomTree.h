@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "core/nodes/Blend.h"
 #include "core/nodes/Node.h"
 #include "tests/support/Random.h"
 
@@ -11,7 +12,8 @@ namespace hybridtree::test
 ///
 /// At most `depth` nodes above each other. Leaves are skeletons and small meshes, some of them
 /// carving; the root always has a part that does not.
-NodePtr randomTree(std::uint64_t seed, int depth);
+/// \param blends of all its blends, local ones too; the shape is the same with all.
+NodePtr randomTree(std::uint64_t seed, int depth, const BlendOptions& blends = {});
 
 /// Rotation, and often a scale, a reflection or a stretch; moves by at most 0.3.
 Affine3 randomMap(Random& random);

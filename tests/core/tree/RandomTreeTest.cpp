@@ -2,17 +2,17 @@
 #include "tests/support/RandomTree.h"
 #include "core/mesh/MeshChecks.h"
 #include "core/tree/Serialize.h"
+#include "tests/support/TreeChecks.h"
+#include "tests/support/TreeTrial.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <map>
-#include <set>
 
 namespace hybridtree::test
 {
@@ -20,15 +20,8 @@ namespace
 {
 
 constexpr int kDepth = 6;
-constexpr std::uint64_t kTrees = 300;
+constexpr std::uint64_t kTrees = 180;
 constexpr std::uint64_t kTreesPerTest = 30;
-
-// Kinds whose mesh is made by the lattice from their own field.
-bool isLatticeNode(const Node& node)
-{
-  const std::string kind = node.kind();
-  return kind == "blend" || kind == "localBlend" || kind == "boolean";
-}
 
 std::vector<double> fieldAt(const FieldSource& source, PointBatch points)
 {
@@ -42,71 +35,6 @@ NodePtr reread(const Node& node)
   const auto meshes = meshesOf(node);
   const std::map<std::string, MeshPtr> byHash(meshes.begin(), meshes.end());
   return fromText(toText(node), [&](const std::string& hash) { return byHash.at(hash); });
-}
-
-// The surface passes within `reach` of the point: f - T has both signs along the gradient there, or
-// along an axis where the field has a corner or a jump.
-bool isNearSurface(const Node& node, const Vec3& point, const Vec3& gradient, double reach)
-{
-  PointList around;
-  std::vector<Vec3> directions{ Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ() };
-  if (gradient.norm() > 0.0)
-  {
-    directions.push_back(gradient.normalized());
-  }
-  for (const Vec3& direction : directions)
-  {
-    around.add(point - reach * direction);
-    around.add(point + reach * direction);
-  }
-  const std::vector<double> value = fieldAt(node, around);
-  const auto [low, high] = std::minmax_element(value.begin(), value.end());
-  return *low <= kThreshold && *high >= kThreshold;
-}
-
-using PointSet = std::set<std::array<double, 3>>;
-
-std::array<double, 3> asKey(const Vec3& point)
-{
-  return { point[0], point[1], point[2] };
-}
-
-// Points of the meshes below a blend, which it may have taken over as they are.
-void addPointsBelow(const Node& node, double edge, PointSet& points)
-{
-  for (const NodePtr& child : node.children())
-  {
-    if (!child->isNegative())
-    {
-      for (const Vec3& point : child->mesh(edge)->points)
-      {
-        points.insert(asKey(point));
-      }
-      addPointsBelow(*child, edge, points);
-    }
-  }
-}
-
-bool cutsBelow(const Node& node)
-{
-  const std::vector<NodePtr> children = node.children();
-  return std::any_of(children.begin(), children.end(),
-    [](const NodePtr& child)
-    { return std::string(child->kind()) == "boolean" || cutsBelow(*child); });
-}
-
-void markOnSurface(
-  const Node& node, const std::vector<Vec3>& vertices, double allowed, std::vector<bool>& on)
-{
-  const PointList points(vertices);
-  VectorList gradient(points.size());
-  std::vector<double> value(points.size());
-  node.fieldAndGradient(points, value.data(), gradient);
-  for (std::size_t k = 0; k < points.size(); ++k)
-  {
-    on[k] = on[k] || std::abs(value[k] - kThreshold) <= allowed * gradient[k].norm() ||
-      isNearSurface(node, points[k], gradient[k], allowed);
-  }
 }
 
 void expectMeshOnTheSurface(const Node& tree)
@@ -123,32 +51,11 @@ void expectMeshOnTheSurface(const Node& tree)
   EXPECT_TRUE(report.closedManifold()) << tree.kind() << ": " << report.describe();
   EXPECT_EQ(mesh->normals.size(), mesh->points.size());
   EXPECT_EQ(mesh->sourceLeaf.size(), mesh->triangles.size());
-  if (!isLatticeNode(tree) || mesh->empty())
-  {
-    return;
-  }
-  // A Boolean's surface is made of its children's; where a child has corners its mesh has notches,
-  // and what lies in one is not cut away.
-  const bool isBoolean = std::string(tree.kind()) == "boolean";
-  std::vector<bool> on(mesh->points.size(), false);
-  for (const NodePtr& node : isBoolean ? tree.children() : std::vector<NodePtr>{ nullptr })
-  {
-    markOnSurface(node ? *node : tree, mesh->points, 1e-3 * edge, on);
-  }
-  PointSet below;
-  if (std::count(on.begin(), on.end(), false) > 0)
-  {
-    addPointsBelow(tree, edge, below);
-  }
-  std::size_t off = 0;
-  for (std::size_t k = 0; k < on.size(); ++k)
-  {
-    off += !on[k] && below.count(asKey(mesh->points[k])) == 0;
-  }
-  // Points of a cut stay on the meshes where moving them would turn triangles over, and what a
-  // blend makes of such edges lies beside the surface as they do.
-  const std::size_t allowed = isBoolean ? on.size() / 20 : cutsBelow(tree) ? on.size() / 100 : 0;
-  EXPECT_LE(off, allowed) << "of " << on.size() << " vertices";
+  EXPECT_EQ(verticesOffSurface(tree, *mesh, edge, 1e-3 * edge), 0u)
+    << "of " << mesh->points.size() << " vertices";
+  const SolidCheck solid = checkSolid(tree, mesh, edge, 2000, 1);
+  EXPECT_FALSE(solid.volumeOff()) << "by " << solid.excess << ", sigma " << solid.sigma
+                                  << ", chords " << solid.chords;
 }
 
 void expectQueriesThatAgree(const Node& tree, std::uint64_t seed)
@@ -222,6 +129,16 @@ TEST_P(RandomTree, QueriesAgree)
   {
     SCOPED_TRACE("seed " + std::to_string(seed));
     expectQueriesThatAgree(*randomTree(seed, kDepth), seed);
+  }
+}
+
+// The short form of benchmarks/RandomTreeFuzz.cpp.
+TEST(RandomTrees, AllMethodsAgree)
+{
+  for (std::uint64_t seed = 5000; seed < 5030; ++seed)
+  {
+    const TreeVerdict verdict = tryTree(seed, 16.0, 2000).back();
+    EXPECT_FALSE(verdict.bad()) << "seed " << seed << "\n" << verdict.text;
   }
 }
 
