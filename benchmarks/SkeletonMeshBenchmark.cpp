@@ -190,10 +190,10 @@ std::vector<Shape> shapes()
   all.push_back(shapeOf("ellipsoid", std::make_shared<EllipsoidSkeleton>(zero, Vec3(1, 0.6, 0.4))));
   SplineCurve wave;
   wave.points = { Vec3(0, 0, 0), Vec3(2, 1, 0), Vec3(4, 0, 1), Vec3(6, 1, 0) };
-  all.push_back(shapeOf("spline", std::make_shared<SplineSkeleton>(wave)));
+  all.push_back(shapeOf("spline", makeSpline(wave)));
   // As each line of Curve Skeletons is one.
   wave.radii = { 0.2, 0.0, 0.1, 0.0 };
-  all.push_back(shapeOf("spline with radii", std::make_shared<SplineSkeleton>(wave)));
+  all.push_back(shapeOf("spline with radii", makeSpline(wave)));
   RevolutionShape vase;
   vase.profile.points = { Vec3(0.6, -1, 0), Vec3(0.9, -0.4, 0), Vec3(0.5, 0.4, 0),
     Vec3(0.6, 1, 0) };

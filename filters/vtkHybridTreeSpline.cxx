@@ -35,7 +35,7 @@ std::shared_ptr<const hybridtree::Skeleton> vtkHybridTreeSpline::MakeSkeleton()
     this->Kind == B_SPLINE ? hybridtree::SplineKind::BSpline : hybridtree::SplineKind::CatmullRom;
   curve.closed = this->Closed;
   curve = hybridtree::requireCurve(std::move(curve));
-  return std::make_shared<hybridtree::SplineSkeleton>(
+  return hybridtree::makeSpline(
     hybridtree::simplified(curve, hybridtree::detailTolerance(curve, this->LevelOfDetail)));
 }
 

@@ -57,7 +57,7 @@ SkeletonPtr skeletonOf(const SplineCurve& curve)
   {
     return std::make_shared<SegmentSkeleton>(curve.points.front(), curve.points.back());
   }
-  return std::make_shared<SplineSkeleton>(curve);
+  return makeSpline(curve);
 }
 
 NodePtr primitiveOf(SplineCurve curve, const CurveTreeOptions& options)

@@ -101,28 +101,32 @@ Vec3 stepOntoOffset(const Skeleton& skeleton, double radius, Vec3& p)
   return outward;
 }
 
-} // namespace
-
-struct Primitive::Placement
+// Under a map that is no similarity.
+class MappedPrimitive final : public Primitive
 {
-  Affine3 map; // from the space of skeleton and potential to that of the node
-  Affine3 inverse;
+public:
+  MappedPrimitive(SkeletonPtr skeleton, const Potential& potential, const Affine3& map)
+    : Primitive(std::move(skeleton), potential), placement_{ map, map.inverse() }
+  {
+  }
+
+private:
+  const Placement* placement() const override { return &placement_; }
+
+  Placement placement_;
 };
 
-Primitive::Primitive(SkeletonPtr skeleton, const Potential& potential, const Affine3& map)
+} // namespace
+
+Primitive::Primitive(SkeletonPtr skeleton, const Potential& potential)
   : skeleton_(std::move(skeleton)), potential_(potential)
 {
-  if (map.matrix() != Affine3::Identity().matrix())
-  {
-    placement_.reset(new Placement{ map, map.inverse() });
-  }
 }
-
-Primitive::~Primitive() = default;
 
 std::optional<Affine3> Primitive::map() const
 {
-  return placement_ ? std::optional<Affine3>(placement_->map) : std::nullopt;
+  const Placement* placement = this->placement();
+  return placement ? std::optional<Affine3>(placement->map) : std::nullopt;
 }
 
 Box3 Primitive::influenceBounds() const
@@ -137,19 +141,21 @@ Box3 Primitive::surfaceBounds() const
 
 Box3 Primitive::toOwnSpace(const Box3& box) const
 {
-  return placement_ ? transformed(box, placement_->inverse) : box;
+  const Placement* placement = this->placement();
+  return placement ? transformed(box, placement->inverse) : box;
 }
 
 Box3 Primitive::offsetBounds(double radius) const
 {
+  const Placement* placement = this->placement();
   Box3 box = skeleton_->bounds();
   Vec3 reach = Vec3::Constant(radius);
-  if (placement_)
+  if (placement)
   {
     // The ball of the offset becomes an ellipsoid, whose extent along an axis is the length of that
     // row of the matrix.
-    box = transformed(box, placement_->map);
-    reach = radius * placement_->map.linear().rowwise().norm();
+    box = transformed(box, placement->map);
+    reach = radius * placement->map.linear().rowwise().norm();
   }
   return Box3(Vec3(box.min() - reach), Vec3(box.max() + reach));
 }
@@ -171,9 +177,10 @@ void Primitive::fieldAndGradient(PointBatch points, double* value, VectorBatch g
 
 void Primitive::addField(PointBatch points, double* sum) const
 {
-  if (placement_)
+  const Placement* placement = this->placement();
+  if (placement)
   {
-    skeleton_->addFalloff(LocalPoints(points, &placement_->inverse), potential_.falloff(), sum);
+    skeleton_->addFalloff(LocalPoints(points, &placement->inverse), potential_.falloff(), sum);
     return;
   }
   skeleton_->addFalloff(points, potential_.falloff(), sum);
@@ -181,19 +188,20 @@ void Primitive::addField(PointBatch points, double* sum) const
 
 void Primitive::addFieldAndGradient(PointBatch points, double* sum, VectorBatch gradientSum) const
 {
-  if (!placement_)
+  const Placement* placement = this->placement();
+  if (!placement)
   {
     skeleton_->addFalloffWithGradient(points, potential_.falloff(), sum, gradientSum);
     return;
   }
-  const LocalPoints local(points, &placement_->inverse);
+  const LocalPoints local(points, &placement->inverse);
   ScratchVectors own(points.size);
   const VectorBatch gradient = own.batch();
   std::fill_n(gradient.x, points.size, 0.0);
   std::fill_n(gradient.y, points.size, 0.0);
   std::fill_n(gradient.z, points.size, 0.0);
   skeleton_->addFalloffWithGradient(local, potential_.falloff(), sum, gradient);
-  const Mat3 transposed = placement_->inverse.linear().transpose();
+  const Mat3 transposed = placement->inverse.linear().transpose();
   for (std::size_t k = 0; k < points.size; ++k)
   {
     gradientSum.set(k, gradientSum[k] + transposed * gradient[k]);
@@ -221,12 +229,13 @@ FieldSourcePtr Primitive::restrictedTo(const Box3& box) const
 
 void Primitive::membership(PointBatch points, std::int8_t* side) const
 {
+  const Placement* placement = this->placement();
   if (!this->hasSurface())
   {
     std::fill_n(side, points.size, std::int8_t(-1));
     return;
   }
-  const LocalPoints local(points, placement_ ? &placement_->inverse : nullptr);
+  const LocalPoints local(points, placement ? &placement->inverse : nullptr);
   ScratchArray distance(points.size);
   skeleton_->signedDistance(local, distance.data());
   const double radius = *potential_.surfaceRadius();
@@ -240,7 +249,8 @@ void Primitive::membership(PointBatch points, std::int8_t* side) const
 
 void Primitive::signedDistance(PointBatch points, double* distance) const
 {
-  if (placement_ || !this->hasSurface())
+  const Placement* placement = this->placement();
+  if (placement || !this->hasSurface())
   {
     Node::signedDistance(points, distance);
     return;
@@ -258,7 +268,8 @@ void Primitive::signedDistance(PointBatch points, double* distance) const
 
 void Primitive::sourceLeaf(PointBatch points, std::int32_t* leaf) const
 {
-  const LocalPoints local(points, placement_ ? &placement_->inverse : nullptr);
+  const Placement* placement = this->placement();
+  const LocalPoints local(points, placement ? &placement->inverse : nullptr);
   ScratchArray distance(points.size);
   skeleton_->distance(local, distance.data());
   for (std::size_t k = 0; k < points.size; ++k)
@@ -269,18 +280,19 @@ void Primitive::sourceLeaf(PointBatch points, std::int32_t* leaf) const
 
 std::optional<SurfaceField> Primitive::surfaceField() const
 {
+  const Placement* placement = this->placement();
   if (!potential_.surfaceRadius())
   {
     return std::nullopt;
   }
-  const double scale =
-    placement_ ? std::cbrt(std::abs(placement_->map.linear().determinant())) : 1.0;
+  const double scale = placement ? std::cbrt(std::abs(placement->map.linear().determinant())) : 1.0;
   return SurfaceField{ potential_.maximumField(),
     scale * (potential_.influenceRadius() - *potential_.surfaceRadius()), potential_.exponent() };
 }
 
 Parameters Primitive::parameters() const
 {
+  const Placement* placement = this->placement();
   Parameters parameters;
   parameters.set("skeleton", skeleton_->kind());
   const Parameters own = skeleton_->parameters();
@@ -289,15 +301,16 @@ Parameters Primitive::parameters() const
     parameters.set(name, value);
   }
   potential_.describe(parameters);
-  if (placement_)
+  if (placement)
   {
-    parameters.set("map", placement_->map);
+    parameters.set("map", placement->map);
   }
   return parameters;
 }
 
 TriangleMesh Primitive::makeMesh(double edgeLength, const Progress& progress) const
 {
+  const Placement* placement = this->placement();
   if (!this->hasSurface())
   {
     return {};
@@ -311,7 +324,7 @@ TriangleMesh Primitive::makeMesh(double edgeLength, const Progress& progress) co
   }
   TriangleMesh mesh = std::move(*direct);
   mesh.sourceLeaf.assign(mesh.triangles.size(), 0);
-  if (placement_)
+  if (placement)
   {
     this->mapMesh(mesh);
     RemeshOptions options;
@@ -327,13 +340,14 @@ TriangleMesh Primitive::makeMesh(double edgeLength, const Progress& progress) co
 
 void Primitive::mapMesh(TriangleMesh& mesh) const
 {
-  const Mat3 toNormals = placement_->inverse.linear().transpose();
+  const Placement* placement = this->placement();
+  const Mat3 toNormals = placement->inverse.linear().transpose();
   for (std::size_t k = 0; k < mesh.points.size(); ++k)
   {
-    mesh.points[k] = placement_->map * mesh.points[k];
+    mesh.points[k] = placement->map * mesh.points[k];
     mesh.normals[k] = (toNormals * mesh.normals[k]).normalized();
   }
-  if (placement_->map.linear().determinant() < 0.0)
+  if (placement->map.linear().determinant() < 0.0)
   {
     for (Triangle& triangle : mesh.triangles)
     {
@@ -344,23 +358,25 @@ void Primitive::mapMesh(TriangleMesh& mesh) const
 
 void Primitive::projectOntoSurface(std::vector<Vec3>& points, std::vector<Vec3>& normals) const
 {
+  const Placement* placement = this->placement();
   const double radius = *potential_.surfaceRadius();
   for (std::size_t k = 0; k < points.size(); ++k)
   {
-    Vec3 p = placement_->inverse * points[k];
+    Vec3 p = placement->inverse * points[k];
     const Vec3 outward = stepOntoOffset(*skeleton_, radius, p);
-    points[k] = placement_->map * p;
+    points[k] = placement->map * p;
     // On a sharp solid the interpolated normals are those to keep.
     if (radius > 0.0)
     {
-      normals[k] = (placement_->inverse.linear().transpose() * outward).normalized();
+      normals[k] = (placement->inverse.linear().transpose() * outward).normalized();
     }
   }
 }
 
 NodePtr Primitive::makeAffine(const Affine3& map) const
 {
-  return makePrimitive(skeleton_, potential_, placement_ ? map * placement_->map : map);
+  const Placement* placement = this->placement();
+  return makePrimitive(skeleton_, potential_, placement ? map * placement->map : map);
 }
 
 NodePtr makePrimitive(SkeletonPtr skeleton, const Potential& potential, const Affine3& map)
@@ -371,7 +387,7 @@ NodePtr makePrimitive(SkeletonPtr skeleton, const Potential& potential, const Af
   }
   if (map.matrix() == Affine3::Identity().matrix())
   {
-    return std::make_shared<Primitive>(std::move(skeleton), potential, map);
+    return std::make_shared<Primitive>(std::move(skeleton), potential);
   }
   if (!map.matrix().allFinite() || map.linear().determinant() == 0.0)
   {
@@ -381,9 +397,9 @@ NodePtr makePrimitive(SkeletonPtr skeleton, const Potential& potential, const Af
   if (const std::optional<double> scale = similarityScale(map))
   {
     return std::make_shared<Primitive>(
-      skeleton->similarityImage(map, *scale), potential.scaled(*scale), Affine3::Identity());
+      skeleton->similarityImage(map, *scale), potential.scaled(*scale));
   }
-  return std::make_shared<Primitive>(std::move(skeleton), potential, map);
+  return std::make_shared<MappedPrimitive>(std::move(skeleton), potential, map);
 }
 
 NodePtr primitiveFromParameters(

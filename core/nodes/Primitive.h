@@ -17,12 +17,10 @@ namespace hybridtree
 ///
 /// The surface is where d = r_T: none when |I| < T, the skeleton itself when |I| = T. A negative
 /// primitive has no surface of its own: it only carves where something blends with it ([HT] 4.3).
-class Primitive final : public Node
+class Primitive : public Node
 {
 public:
-  /// \pre map is the identity or no similarity (makePrimitive() sees to it).
-  Primitive(SkeletonPtr skeleton, const Potential& potential, const Affine3& map);
-  ~Primitive() override;
+  Primitive(SkeletonPtr skeleton, const Potential& potential);
 
   const Skeleton& skeleton() const { return *skeleton_; }
   const Potential& potential() const { return potential_; }
@@ -57,13 +55,20 @@ public:
   Parameters parameters() const override;
 
 protected:
+  struct Placement
+  {
+    Affine3 map; ///< from the space of skeleton and potential to that of the node
+    Affine3 inverse;
+  };
+
   /// The skeleton's direct mesh ([HT] 5.1), mapped and mended where there is a matrix; the
   /// lattice's for offsets that meet themselves.
   TriangleMesh makeMesh(double edgeLength, const Progress& progress) const override;
   NodePtr makeAffine(const Affine3& map) const override;
 
 private:
-  struct Placement;
+  /// Null for the identity. Other maps are a matter of the few primitives that have one.
+  virtual const Placement* placement() const { return nullptr; }
 
   bool hasSurface() const { return potential_.surfaceRadius() && !this->isNegative(); }
   Box3 offsetBounds(double radius) const;
@@ -77,7 +82,6 @@ private:
   // the surface radius are cheap beside a batch of points.
   SkeletonPtr skeleton_;
   Potential potential_;
-  std::unique_ptr<const Placement> placement_; // null for the identity
 };
 
 /// A primitive, or its image under a map: similarities are absorbed by skeleton and potential,

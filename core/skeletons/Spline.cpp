@@ -19,9 +19,6 @@ namespace hybridtree
 namespace
 {
 
-// Curves of more spans keep what their distance needs.
-constexpr std::size_t kShort = 4;
-
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 const std::array<const char*, 3> kKindNames = { "catmullRom", "bSpline", "polyline" };
@@ -33,14 +30,106 @@ std::vector<CubicSpan> spansOf(const SplineCurve& curve)
   return spans;
 }
 
-// A short curve prepared for this thread, until the next.
-const CurveDistance& shortCurve(const SplineCurve& curve)
+// One that keeps what its distance needs.
+class LongSpline final : public SplineSkeleton
 {
-  thread_local std::vector<CubicSpan> spans;
-  thread_local CurveDistance distance;
-  splineSpans(curve, spans);
-  distance.assign(spans);
-  return distance;
+public:
+  explicit LongSpline(SplineCurve curve) : curve_(std::move(curve)), prepared_(spansOf(curve_))
+  {
+    curve_.points.shrink_to_fit();
+    curve_.radii.shrink_to_fit();
+  }
+
+private:
+  void read(SplineCurve& curve) const override { curve = curve_; }
+  const CurveDistance& prepared() const override { return prepared_; }
+
+  SplineCurve curve_;
+  CurveDistance prepared_;
+};
+
+// One that prepares them anew, unless this thread has just done so for the same numbers.
+template <std::size_t Numbers>
+class ShortSpline final : public SplineSkeleton
+{
+public:
+  explicit ShortSpline(const SplineCurve& curve)
+    : points_(static_cast<std::uint8_t>(curve.points.size()))
+    , thick_(!curve.radii.empty())
+    , closed_(curve.closed)
+    , kind_(curve.kind)
+  {
+    double* end = numbers_.data();
+    for (const Vec3& point : curve.points)
+    {
+      end = std::copy(point.begin(), point.end(), end);
+    }
+    end = std::copy(curve.radii.begin(), curve.radii.end(), end);
+    std::fill(end, numbers_.data() + Numbers, 0.0);
+  }
+
+private:
+  void read(SplineCurve& curve) const override
+  {
+    curve.points.resize(points_);
+    const double* next = numbers_.data();
+    for (Vec3& point : curve.points)
+    {
+      point = Vec3(next[0], next[1], next[2]);
+      next += 3;
+    }
+    curve.radii.assign(next, next + (thick_ ? points_ : 0));
+    curve.kind = kind_;
+    curve.closed = closed_;
+  }
+
+  const CurveDistance& prepared() const override
+  {
+    thread_local SplineCurve curve;
+    thread_local std::vector<CubicSpan> spans;
+    thread_local CurveDistance distance;
+    if (!this->is(curve))
+    {
+      this->read(curve);
+      splineSpans(curve, spans);
+      distance.assign(spans);
+    }
+    return distance;
+  }
+
+  bool is(const SplineCurve& curve) const
+  {
+    const double* next = numbers_.data();
+    bool same = curve.points.size() == points_ && curve.radii.empty() == !thick_ &&
+      curve.kind == kind_ && curve.closed == closed_;
+    for (std::size_t k = 0; same && k < points_; ++k, next += 3)
+    {
+      same = curve.points[k] == Vec3(next[0], next[1], next[2]);
+    }
+    return same && std::equal(curve.radii.begin(), curve.radii.end(), next);
+  }
+
+  std::uint8_t points_;
+  bool thick_;
+  bool closed_;
+  SplineKind kind_;
+  std::array<double, Numbers> numbers_; // of the points, then the radii
+};
+
+constexpr std::size_t kMostShort = 21;
+
+// The smallest kind that has room.
+template <std::size_t Numbers>
+SplinePtr shortSpline(const SplineCurve& curve, std::size_t needed)
+{
+  if constexpr (Numbers < kMostShort)
+  {
+    if (needed > Numbers)
+    {
+      return shortSpline<Numbers + 4>(curve, needed);
+    }
+  }
+  return std::make_shared<const ShortSpline<Numbers>>(curve);
 }
 
 } // namespace
@@ -72,24 +161,23 @@ SplineCurve requireCurve(SplineCurve curve)
   return withoutRepeats(std::move(curve));
 }
 
-SplineSkeleton::SplineSkeleton(SplineCurve curve) : curve_(requireCurve(std::move(curve)))
+SplinePtr makeSpline(SplineCurve curve)
 {
-  if (std::all_of(curve_.radii.begin(), curve_.radii.end(), [](double r) { return r == 0.0; }))
+  curve = requireCurve(std::move(curve));
+  if (std::all_of(curve.radii.begin(), curve.radii.end(), [](double r) { return r == 0.0; }))
   {
-    curve_.radii.clear();
+    curve.radii.clear();
   }
-  curve_.points.shrink_to_fit();
-  curve_.radii.shrink_to_fit();
-  if (splineSpanCount(curve_) > kShort)
-  {
-    prepared_ = std::make_unique<const CurveDistance>(spansOf(curve_));
-  }
+  const std::size_t numbers = 3 * curve.points.size() + curve.radii.size();
+  return numbers > kMostShort ? std::make_shared<const LongSpline>(std::move(curve))
+                              : shortSpline<9>(curve, numbers);
 }
 
-void SplineSkeleton::offsets(
-  PointBatch points, VectorBatch offset, double* radius, double reach) const
+SplineCurve SplineSkeleton::curve() const
 {
-  (prepared_ ? *prepared_ : shortCurve(curve_)).offsets(points, offset, radius, reach);
+  SplineCurve curve;
+  this->read(curve);
+  return curve;
 }
 
 void SplineSkeleton::signedDistance(PointBatch points, double* distance) const
@@ -97,7 +185,7 @@ void SplineSkeleton::signedDistance(PointBatch points, double* distance) const
   ScratchVectors scratch(points.size);
   ScratchArray radius(points.size);
   const VectorBatch offset = scratch.batch();
-  this->offsets(points, offset, radius.data(), kInfinity);
+  this->prepared().offsets(points, offset, radius.data(), kInfinity);
   for (std::size_t k = 0; k < points.size; ++k)
   {
     distance[k] = offset[k].norm() - radius[k];
@@ -109,7 +197,7 @@ void SplineSkeleton::reachedDistance(PointBatch points, double* distance, double
   ScratchVectors scratch(points.size);
   ScratchArray radius(points.size);
   const VectorBatch offset = scratch.batch();
-  this->offsets(points, offset, radius.data(), reach);
+  this->prepared().offsets(points, offset, radius.data(), reach);
   for (std::size_t k = 0; k < points.size; ++k)
   {
     distance[k] = std::max(0.0, offset[k].norm() - radius[k]);
@@ -125,7 +213,7 @@ void SplineSkeleton::distanceAndGradient(
   PointBatch points, double* distance, VectorBatch gradient) const
 {
   ScratchArray radius(points.size);
-  this->offsets(points, gradient, radius.data(), kInfinity);
+  this->prepared().offsets(points, gradient, radius.data(), kInfinity);
   for (std::size_t k = 0; k < points.size; ++k)
   {
     const Vec3 offset = gradient[k];
@@ -151,7 +239,7 @@ Interval SplineSkeleton::distanceRange(const Box3& box) const
   const Vec3 center = box.center();
   Vec3 offset;
   double radius;
-  this->offsets({ &center.x(), &center.y(), &center.z(), 1 },
+  this->prepared().offsets({ &center.x(), &center.y(), &center.z(), 1 },
     { &offset.x(), &offset.y(), &offset.z() }, &radius, kInfinity);
   // Not farther than from the ball that is nearest to the centre: a convex distance.
   const Vec3 nearest = center - offset;
@@ -165,21 +253,22 @@ Interval SplineSkeleton::distanceRange(const Box3& box) const
 
 Box3 SplineSkeleton::bounds() const
 {
-  return prepared_ ? prepared_->bounds() : shortCurve(curve_).bounds();
+  return this->prepared().bounds();
 }
 
 std::optional<TriangleMesh> SplineSkeleton::offsetMesh(double radius, double edgeLength) const
 {
-  if (radius == 0.0 && curve_.radii.empty())
+  const SplineCurve curve = this->curve();
+  if (radius == 0.0 && curve.radii.empty())
   {
     return TriangleMesh(); // encloses nothing
   }
-  return meshSweep(spansOf(curve_), curve_.isClosed(), radius, edgeLength);
+  return meshSweep(spansOf(curve), curve.isClosed(), radius, edgeLength);
 }
 
 SkeletonPtr SplineSkeleton::similarityImage(const Affine3& map, double scale) const
 {
-  SplineCurve image = curve_;
+  SplineCurve image = this->curve();
   for (Vec3& point : image.points)
   {
     point = map * point;
@@ -188,7 +277,7 @@ SkeletonPtr SplineSkeleton::similarityImage(const Affine3& map, double scale) co
   {
     radius *= scale;
   }
-  return std::make_shared<SplineSkeleton>(std::move(image));
+  return makeSpline(std::move(image));
 }
 
 void describeCurve(const SplineCurve& curve, Parameters& parameters)
@@ -239,13 +328,13 @@ SplineCurve curveFrom(const Parameters& parameters)
 Parameters SplineSkeleton::parameters() const
 {
   Parameters parameters;
-  describeCurve(curve_, parameters);
+  describeCurve(this->curve(), parameters);
   return parameters;
 }
 
 SkeletonPtr SplineSkeleton::fromParameters(const Parameters& parameters)
 {
-  return std::make_shared<SplineSkeleton>(curveFrom(parameters));
+  return makeSpline(curveFrom(parameters));
 }
 
 } // namespace hybridtree

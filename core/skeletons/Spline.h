@@ -17,48 +17,52 @@ namespace hybridtree
 /// than the offset; the largest may not. The distance is the exact minimum over all spans
 /// (CurveDistance). Inside of what the balls sweep the signed distance is that to the surface of
 /// the deepest ball, which is that of the whole unless it overlaps itself.
-class SplineSkeleton final : public Skeleton
+///
+/// makeSpline() makes them: short ones are their numbers and little else, since hundreds are to fit
+/// into one small tree ([HT] 6.3).
+class SplineSkeleton : public Skeleton
 {
 public:
-  /// Points that repeat the one before are dropped where the curve goes through them.
-  /// \throws InvalidParameter when there are no points, a number is not finite, all radii are
-  /// negative, or the numbers of points and radii differ.
-  explicit SplineSkeleton(SplineCurve curve);
+  SplineCurve curve() const;
 
-  const SplineCurve& curve() const { return curve_; }
-
-  void distance(PointBatch points, double* distance) const override;
-  void distanceAndGradient(
-    PointBatch points, double* distance, VectorBatch gradient) const override;
-  void signedDistance(PointBatch points, double* distance) const override;
-  void addFalloff(PointBatch points, const Falloff& falloff, double* sum) const override;
+  void distance(PointBatch points, double* distance) const final;
+  void distanceAndGradient(PointBatch points, double* distance, VectorBatch gradient) const final;
+  void signedDistance(PointBatch points, double* distance) const final;
+  void addFalloff(PointBatch points, const Falloff& falloff, double* sum) const final;
 
   /// By the exact distance at the centre of the box. Above it is exact to first order, below it
   /// falls with the diagonal.
-  Interval distanceRange(const Box3& box) const override;
-  Box3 bounds() const override;
+  Interval distanceRange(const Box3& box) const final;
+  Box3 bounds() const final;
 
   /// Swept from rings with rotation-minimising frames, with round ends. No value where the surface
   /// meets itself: the curvature radius falls to `radius` (and the radius of the curve), or two
   /// parts of the curve come nearer than twice that; found by bounds, so also in some cases close
   /// to that.
-  std::optional<TriangleMesh> offsetMesh(double radius, double edgeLength) const override;
+  std::optional<TriangleMesh> offsetMesh(double radius, double edgeLength) const final;
 
-  SkeletonPtr similarityImage(const Affine3& map, double scale) const override;
-  const char* kind() const override { return "spline"; }
+  SkeletonPtr similarityImage(const Affine3& map, double scale) const final;
+  const char* kind() const final { return "spline"; }
   /// "points" (x, y, z after each other), "spline" ("catmullRom", "bSpline" or "polyline"),
   /// "closed", and "radii" where there are any.
-  Parameters parameters() const override;
+  Parameters parameters() const final;
   static SkeletonPtr fromParameters(const Parameters& parameters);
 
 private:
-  void offsets(PointBatch points, VectorBatch offset, double* radius, double reach) const;
-  void reachedDistance(PointBatch points, double* distance, double reach) const;
+  /// The curve, into memory that is used again.
+  virtual void read(SplineCurve& curve) const = 0;
+  /// What its distance needs. That of a short curve lasts until this thread asks another one.
+  virtual const CurveDistance& prepared() const = 0;
 
-  SplineCurve curve_;
-  // Kept for longer curves only: hundreds of short ones are to stay small.
-  std::unique_ptr<const CurveDistance> prepared_;
+  void reachedDistance(PointBatch points, double* distance, double reach) const;
 };
+
+using SplinePtr = std::shared_ptr<const SplineSkeleton>;
+
+/// Points that repeat the one before are dropped where the curve goes through them.
+/// \throws InvalidParameter when there are no points, a number is not finite, all radii are
+/// negative, or the numbers of points and radii differ.
+SplinePtr makeSpline(SplineCurve curve);
 
 ///@{
 /// The curve as parameters, and back. \throws InvalidText, InvalidParameter.
@@ -66,7 +70,7 @@ void describeCurve(const SplineCurve& curve, Parameters& parameters);
 SplineCurve curveFrom(const Parameters& parameters);
 ///@}
 
-/// The curve as it is. \throws InvalidParameter as the constructor of SplineSkeleton.
+/// The curve without such repeats. \throws InvalidParameter as makeSpline().
 SplineCurve requireCurve(SplineCurve curve);
 
 } // namespace hybridtree

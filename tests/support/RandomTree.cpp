@@ -119,7 +119,7 @@ private:
       case 6:
         return this->roundSkeleton();
       case 7:
-        return std::make_shared<SplineSkeleton>(
+        return makeSpline(
           SplineCurve{ { this->place(), this->place(), this->place(), this->place() }, {},
             random_.chance(0.5) ? SplineKind::CatmullRom : SplineKind::BSpline,
             random_.chance(0.3) });

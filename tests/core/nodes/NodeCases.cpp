@@ -74,19 +74,17 @@ NodePtr block()
 
 NodePtr tube()
 {
-  return makePrimitive(
-    std::make_shared<SplineSkeleton>(SplineCurve{
-      { Vec3(-0.6, -0.2, 0), Vec3(-0.2, 0.3, 0.1), Vec3(0.3, -0.2, -0.1), Vec3(0.6, 0.3, 0.2) }, {},
-      SplineKind::CatmullRom, false }),
+  return makePrimitive(makeSpline(SplineCurve{ { Vec3(-0.6, -0.2, 0), Vec3(-0.2, 0.3, 0.1),
+                                                 Vec3(0.3, -0.2, -0.1), Vec3(0.6, 0.3, 0.2) },
+                         {}, SplineKind::CatmullRom, false }),
     potential(0.12, 0.3));
 }
 
 NodePtr tail()
 {
-  return makePrimitive(
-    std::make_shared<SplineSkeleton>(SplineCurve{
-      { Vec3(-0.6, 0.1, 0), Vec3(-0.2, 0.2, 0.1), Vec3(0.3, -0.1, 0), Vec3(0.5, -0.4, 0.2) },
-      { 0.15, 0.1, 0.03, 0.0 }, SplineKind::BSpline, false }),
+  return makePrimitive(makeSpline(SplineCurve{ { Vec3(-0.6, 0.1, 0), Vec3(-0.2, 0.2, 0.1),
+                                                 Vec3(0.3, -0.1, 0), Vec3(0.5, -0.4, 0.2) },
+                         { 0.15, 0.1, 0.03, 0.0 }, SplineKind::BSpline, false }),
     potential(0.1, 0.3));
 }
 

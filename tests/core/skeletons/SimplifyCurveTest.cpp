@@ -39,8 +39,8 @@ SplineCurve wave(SplineKind kind, bool closed, bool thick)
 double surfaceDistance(const SplineCurve& from, const SplineCurve& to)
 {
   test::Random random(3);
-  const SplineSkeleton source(from);
-  const SplineSkeleton target(to);
+  const SplinePtr source = makeSpline(from);
+  const SplinePtr target = makeSpline(to);
   std::vector<CubicSpan> spans;
   splineSpans(from, spans);
   PointList points;
@@ -54,8 +54,8 @@ double surfaceDistance(const SplineCurve& from, const SplineCurve& to)
     }
   }
   std::vector<double> own(points.size()), other(points.size());
-  source.signedDistance(points, own.data());
-  target.signedDistance(points, other.data());
+  source->signedDistance(points, own.data());
+  target->signedDistance(points, other.data());
   double most = 0.0;
   for (std::size_t k = 0; k < points.size(); ++k)
   {

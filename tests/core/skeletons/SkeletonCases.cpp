@@ -80,7 +80,7 @@ SkeletonCase splineCase(SplineCurve curve)
   constexpr int kSamples = 400; // per span
   std::vector<CubicSpan> spans;
   splineSpans(curve, spans);
-  SkeletonCase result{ "spline", std::make_shared<SplineSkeleton>(curve), {}, 0.0, nullptr };
+  SkeletonCase result{ "spline", makeSpline(curve), {}, 0.0, nullptr };
   result.sharpRange = false;
   for (const CubicSpan& span : spans)
   {

@@ -89,9 +89,9 @@ TEST(Spline, DistanceIsThatOfBruteForce)
   Random random(42);
   for (const SplineCurve& curve : hardCurves())
   {
-    const SplineSkeleton spline(curve);
+    const SplinePtr spline = makeSpline(curve);
     const std::vector<CubicSpan> spans = spansOf(curve);
-    Box3 room = spline.bounds();
+    Box3 room = spline->bounds();
     room = Box3(Vec3(room.min().array() - 1.0), Vec3(room.max().array() + 1.0));
     PointList points = randomPoints(random, room, 60);
     // On centres of curvature q has a multiple root.
@@ -109,7 +109,7 @@ TEST(Spline, DistanceIsThatOfBruteForce)
       }
     }
     std::vector<double> distance(points.size());
-    spline.distance(points, distance.data());
+    spline->distance(points, distance.data());
     for (std::size_t k = 0; k < points.size(); ++k)
     {
       const double expected = bruteForce(spans, points[k]);
@@ -131,15 +131,15 @@ TEST(Spline, ThickDistanceIsThatToTheNearestBall)
       curve.radii.push_back(random.chance(0.2) ? 0.0 : random.uniform(-0.2, 0.4));
     }
     curve.radii[1] = 0.3;
-    const SplineSkeleton spline(curve);
+    const SplinePtr spline = makeSpline(curve);
     const std::vector<CubicSpan> spans = spansOf(curve);
     const PointList points = randomPoints(random,
-      Box3(Vec3(spline.bounds().min().array() - 0.5), Vec3(spline.bounds().max().array() + 0.5)),
+      Box3(Vec3(spline->bounds().min().array() - 0.5), Vec3(spline->bounds().max().array() + 0.5)),
       120);
     std::vector<double> distance(points.size()), signedDistance(points.size());
     VectorList gradient(points.size());
-    spline.signedDistance(points, signedDistance.data());
-    spline.distanceAndGradient(points, distance.data(), gradient);
+    spline->signedDistance(points, signedDistance.data());
+    spline->distanceAndGradient(points, distance.data(), gradient);
     for (std::size_t k = 0; k < points.size(); ++k)
     {
       const double expected = bruteForce(spans, points[k]);
@@ -163,9 +163,9 @@ TEST(Spline, GoesThroughItsPointsOrReachesItsEnds)
   for (const bool closed : { false, true })
   {
     SplineCurve curve{ randomWalk(random, 9), {}, SplineKind::CatmullRom, closed };
-    const SplineSkeleton through(curve);
+    const SplinePtr through = makeSpline(curve);
     std::vector<double> distance(curve.points.size());
-    through.distance(PointList(curve.points), distance.data());
+    through->distance(PointList(curve.points), distance.data());
     for (const double d : distance)
     {
       EXPECT_LE(d, 1e-13);
@@ -196,11 +196,12 @@ TEST(Spline, GoesThroughItsPointsOrReachesItsEnds)
 TEST(Spline, RepeatedPointsAreOnePoint)
 {
   const Vec3 a(0, 0, 0), b(1, 0, 0), c(1, 1, 0);
-  const SplineSkeleton clean({ { a, b, c }, {}, SplineKind::CatmullRom, true });
-  const SplineSkeleton repeated({ { a, a, b, c, c, c, a }, {}, SplineKind::CatmullRom, true });
-  EXPECT_EQ(repeated.parameters().entries(), clean.parameters().entries());
-  const SplineSkeleton point({ { a, a, a }, {}, SplineKind::CatmullRom, true });
-  EXPECT_EQ(point.curve().points.size(), 1u);
+  const SplinePtr clean = makeSpline({ { a, b, c }, {}, SplineKind::CatmullRom, true });
+  const SplinePtr repeated =
+    makeSpline({ { a, a, b, c, c, c, a }, {}, SplineKind::CatmullRom, true });
+  EXPECT_EQ(repeated->parameters().entries(), clean->parameters().entries());
+  const SplinePtr point = makeSpline({ { a, a, a }, {}, SplineKind::CatmullRom, true });
+  EXPECT_EQ(point->curve().points.size(), 1u);
 }
 
 TEST(Spline, RadiiStayBetweenThoseOfTheirPoints)
@@ -251,11 +252,11 @@ TEST(Spline, SweptMeshIsClosedExactAndFine)
       {
         curve.radii.push_back(0.03 + 0.03 * std::cos(0.5 * k * 2.0 * EIGEN_PI / 6.0));
       }
-      const SplineSkeleton spline(curve);
+      const SplinePtr spline = makeSpline(curve);
       const double radius = 0.15;
       for (const double length : { 0.02, 0.07, 0.3, 100.0 })
       {
-        const auto mesh = spline.offsetMesh(radius, length);
+        const auto mesh = spline->offsetMesh(radius, length);
         ASSERT_TRUE(mesh) << "closed " << closed << " thick " << thick << " " << length;
         const MeshReport report = checkMesh(*mesh);
         EXPECT_TRUE(report.closedManifold()) << report.describe();
@@ -265,7 +266,7 @@ TEST(Spline, SweptMeshIsClosedExactAndFine)
         const PointList points(mesh->points);
         std::vector<double> distance(points.size());
         VectorList gradient(points.size());
-        spline.distanceAndGradient(points, distance.data(), gradient);
+        spline->distanceAndGradient(points, distance.data(), gradient);
         for (std::size_t k = 0; k < points.size(); ++k)
         {
           EXPECT_NEAR(distance[k], radius, 1e-10);
@@ -306,9 +307,9 @@ TEST(Spline, ATubesVolumeIsThatOfPappus)
     const double r = 0.15;
     const double exact =
       EIGEN_PI * r * r * length + (closed ? 0.0 : 4.0 / 3.0 * EIGEN_PI * r * r * r);
-    const SplineSkeleton spline(curve);
-    const double coarse = signedVolume(*spline.offsetMesh(r, 0.04)) - exact;
-    const double fine = signedVolume(*spline.offsetMesh(r, 0.01)) - exact;
+    const SplinePtr spline = makeSpline(curve);
+    const double coarse = signedVolume(*spline->offsetMesh(r, 0.04)) - exact;
+    const double fine = signedVolume(*spline->offsetMesh(r, 0.01)) - exact;
     EXPECT_LE(std::abs(coarse), 0.03 * exact);
     EXPECT_LE(std::abs(fine), std::abs(coarse) / 8.0);
   }
@@ -317,21 +318,22 @@ TEST(Spline, ATubesVolumeIsThatOfPappus)
 TEST(Spline, TubesThatMeetThemselvesAreLeftToTheLattice)
 {
   // A hairpin whose legs are 0.4 apart, and two loops of a helix 0.3 apart.
-  const SplineSkeleton hairpin({ { Vec3(0, 0, 0), Vec3(2, 0, 0), Vec3(2, 0.4, 0), Vec3(0, 0.4, 0) },
-    {}, SplineKind::CatmullRom, false });
-  EXPECT_FALSE(hairpin.offsetMesh(0.25, 0.1));
-  EXPECT_TRUE(hairpin.offsetMesh(0.1, 0.1));
+  const SplinePtr hairpin =
+    makeSpline({ { Vec3(0, 0, 0), Vec3(2, 0, 0), Vec3(2, 0.4, 0), Vec3(0, 0.4, 0) }, {},
+      SplineKind::CatmullRom, false });
+  EXPECT_FALSE(hairpin->offsetMesh(0.25, 0.1));
+  EXPECT_TRUE(hairpin->offsetMesh(0.1, 0.1));
   SplineCurve coil;
   for (int k = 0; k < 24; ++k)
   {
     coil.points.emplace_back(
       std::cos(EIGEN_PI * k / 6.0), std::sin(EIGEN_PI * k / 6.0), 0.3 * k / 12.0);
   }
-  EXPECT_FALSE(SplineSkeleton(coil).offsetMesh(0.155, 0.1));
-  EXPECT_TRUE(SplineSkeleton(coil).offsetMesh(0.145, 0.1));
+  EXPECT_FALSE(makeSpline(coil)->offsetMesh(0.155, 0.1));
+  EXPECT_TRUE(makeSpline(coil)->offsetMesh(0.145, 0.1));
   // A corner.
   coil.kind = SplineKind::Polyline;
-  EXPECT_FALSE(SplineSkeleton(coil).offsetMesh(0.05, 0.1));
+  EXPECT_FALSE(makeSpline(coil)->offsetMesh(0.05, 0.1));
 }
 
 TEST(Spline, ClearTubesDoNotMeetThemselves)
@@ -350,7 +352,7 @@ TEST(Spline, ClearTubesDoNotMeetThemselves)
       continue;
     }
     ++clear;
-    const SplineSkeleton spline(curve);
+    const SplinePtr spline = makeSpline(curve);
     PointList points;
     for (int k = 0; k < 200; ++k)
     {
@@ -361,7 +363,7 @@ TEST(Spline, ClearTubesDoNotMeetThemselves)
       points.add(span.at(t).at + radius * across);
     }
     std::vector<double> distance(points.size());
-    spline.distance(points, distance.data());
+    spline->distance(points, distance.data());
     for (const double d : distance)
     {
       EXPECT_NEAR(d, radius, 1e-12);
@@ -376,7 +378,7 @@ TEST(Spline, BadValuesAreNamed)
   {
     try
     {
-      const SplineSkeleton spline(std::move(curve));
+      const SplinePtr spline = makeSpline(std::move(curve));
     }
     catch (const InvalidParameter& error)
     {
