@@ -2,6 +2,7 @@
 #include "reconstruction/Convection.h"
 
 #include "reconstruction/ConvectedSolid.h"
+#include "reconstruction/SpatialOrder.h"
 #include "reconstruction/Tetrahedralization.h"
 
 #include <algorithm>
@@ -47,8 +48,7 @@ ReconstructedSurface reconstruct(
   const std::vector<Vec3>& points, const ConvectionOptions& options, const Progress& progress)
 {
   checkOptions(points.size(), options);
-  const std::vector<std::int32_t> order = spatialOrder(points);
-  progress.check();
+  const std::vector<std::int32_t> order = spatialOrder(points, progress);
   std::vector<Vec3> ordered(points.size());
   std::transform(
     order.begin(), order.end(), ordered.begin(), [&](std::int32_t point) { return points[point]; });

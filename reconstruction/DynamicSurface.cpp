@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "reconstruction/DynamicSurface.h"
 
-#include "reconstruction/DelaunayTypes.h"
+#include "reconstruction/DelaunayPredicates.h"
 
-#include "core/base/Error.h"
 #include "core/geometry/PointTriangle.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -17,10 +14,6 @@ namespace hybridtree
 {
 namespace
 {
-
-using Cell = Delaunay::Cell_handle;
-using Facet = Delaunay::Facet;
-using Vertex = Delaunay::Vertex_handle;
 
 struct Edge
 {
@@ -33,29 +26,7 @@ bool sameEnds(const Edge& a, const Edge& b)
   return std::minmax({ a.from, a.to }) == std::minmax({ b.from, b.to });
 }
 
-// Corners of a facet of a finite cell, counter-clockwise seen from outside.
-Triangle corners(const Cell cell, int facet)
-{
-  Triangle triangle;
-  for (int k = 0; k < 3; ++k)
-  {
-    triangle[k] = cell->vertex(Tetrahedralization::kFacetCorners[facet][k])->info();
-  }
-  return triangle;
-}
-
 } // namespace
-
-struct DynamicSurface::Mesh
-{
-  DelaunayTriangulation delaunay;
-  std::vector<Vertex> vertices; // per site; null where it coincides with an earlier one
-  std::vector<Cell> conflicts;  // scratch
-  std::vector<Cell> sorted;
-  std::vector<Facet> border;
-
-  Facet facetTowards(const Vec3& point, const std::vector<Vec3>& sites) const;
-};
 
 // What a point to be added would replace.
 struct DynamicSurface::Hole
@@ -64,98 +35,46 @@ struct DynamicSurface::Hole
   std::vector<Triangle> triangles; // of the surface within it
 };
 
-DynamicSurface::DynamicSurface() : mesh_(std::make_unique<Mesh>()) {}
-
-DynamicSurface::~DynamicSurface() = default;
-
 void DynamicSurface::insert(const std::vector<Vec3>& points, const Progress& progress)
 {
-  Delaunay& delaunay = mesh_->delaunay;
-  Cell near;
-  for (std::size_t k = 0; k < points.size(); ++k)
-  {
-    const std::size_t known = delaunay.number_of_vertices();
-    const Vertex vertex = delaunay.insert(toCgal(points[k]), near);
-    const bool added = delaunay.number_of_vertices() > known;
-    if (added)
-    {
-      vertex->info() = static_cast<std::int32_t>(sites_.size());
-    }
-    mesh_->vertices.push_back(added ? vertex : Vertex());
-    sites_.push_back(points[k]);
-    near = vertex->cell();
-    if (k % 256 == 0)
-    {
-      progress.check();
-      progress.report(double(k) / double(points.size()));
-    }
-  }
-}
-
-bool DynamicSurface::spansVolume() const
-{
-  return mesh_->delaunay.dimension() == 3;
+  delaunay_.insert(points, progress);
 }
 
 Tetrahedralization DynamicSurface::tetrahedralization(const Progress& progress) const
 {
-  return Tetrahedralization(sites_, mesh_->delaunay, progress);
+  return Tetrahedralization(delaunay_, progress);
 }
 
-void DynamicSurface::setInside(const std::vector<std::uint8_t>& inside)
+void DynamicSurface::setInside(
+  const Tetrahedralization& tetrahedra, const std::vector<std::uint8_t>& inside)
 {
-  for (const Cell cell : mesh_->delaunay.all_cell_handles())
+  inside_.assign(delaunay_.cellCount(), 0);
+  marks_.assign(delaunay_.cellCount(), 0);
+  for (std::int32_t cell = 0; cell < tetrahedra.cellCount(); ++cell)
   {
-    cell->info().inside = inside[cell->info().number] != 0;
+    inside_[tetrahedra.source(cell)] = inside[cell];
   }
 }
 
 DynamicSurface::Outcome DynamicSurface::place(
   const Vec3& point, std::int32_t near, double tolerance)
 {
-  Delaunay& delaunay = mesh_->delaunay;
-  const auto site = toCgal(point);
-  Delaunay::Locate_type where;
-  int i = 0;
-  int j = 0;
-  const Vertex nearVertex = mesh_->vertices[near];
-  const Cell start =
-    delaunay.locate(site, where, i, j, nearVertex == Vertex() ? Cell() : nearVertex->cell());
-  if (where == Delaunay::VERTEX)
+  const Delaunay::Place where = delaunay_.locate(point, near);
+  if (where.vertex >= 0)
   {
-    return this->surfaceAt(start->vertex(i)->info(), tolerance);
+    return this->surfaceAt(where.vertex, tolerance);
   }
-  std::vector<Cell>& conflicts = mesh_->conflicts;
-  std::vector<Facet>& border = mesh_->border;
-  conflicts.clear();
-  border.clear();
-  delaunay.find_conflicts(site, start, std::back_inserter(border), std::back_inserter(conflicts));
-
-  Hole hole;
-  // To tell them from others. Sorted aside: by address, which must not decide on anything.
-  std::vector<Cell>& sorted = mesh_->sorted;
-  sorted = conflicts;
-  std::sort(sorted.begin(), sorted.end());
-  for (const Cell cell : conflicts)
-  {
-    for (int facet = 0; cell->info().inside && facet < 4; ++facet)
-    {
-      const Cell beyond = cell->neighbor(facet);
-      if (!beyond->info().inside && std::binary_search(sorted.begin(), sorted.end(), beyond))
-      {
-        hole.triangles.push_back(corners(cell, facet));
-      }
-    }
-  }
-  Facet dent;
+  delaunay_.findCavity(point, where, cavity_);
+  Hole hole = this->holeOf(cavity_.cells);
+  std::int32_t dent = -1;
   if (hole.triangles.empty())
   {
-    dent = mesh_->facetTowards(point, sites_);
-    if (dent.first == Cell())
+    dent = this->facetTowards(point, cavity_.border);
+    if (dent < 0)
     {
       return Outcome::Refused;
     }
-    hole.triangles.push_back(corners(dent.first, dent.second));
+    hole.triangles.push_back(delaunay_.facet(dent));
   }
   for (const Triangle& triangle : hole.triangles)
   {
@@ -164,18 +83,7 @@ DynamicSurface::Outcome DynamicSurface::place(
       return Outcome::Near;
     }
   }
-  for (const Facet& facet : border)
-  {
-    if (facet.first->info().inside)
-    {
-      const Triangle corner = corners(facet.first, facet.second);
-      for (int k = 0; k < 3; ++k)
-      {
-        hole.edges.push_back({ corner[k], corner[(k + 1) % 3] });
-      }
-    }
-  }
-  if (dent.first == Cell() && !this->keepsManifold(hole))
+  if (dent < 0 && !this->keepsManifold(hole))
   {
     return Outcome::Refused;
   }
@@ -183,71 +91,103 @@ DynamicSurface::Outcome DynamicSurface::place(
   {
     touched_.insert(touched_.end(), triangle.begin(), triangle.end());
   }
-
-  struct Base
-  {
-    Cell outer;
-    int facet;
-    bool inside;
-  };
-  std::vector<Base> bases;
-  bases.reserve(border.size());
-  for (const Facet& facet : border)
-  {
-    const Facet outer = delaunay.mirror_facet(facet);
-    const bool inside = facet.first->info().inside;
-    bases.push_back({ outer.first, outer.second, facet == dent ? !inside : inside });
-  }
-  const Vertex vertex = delaunay.insert_in_hole(
-    site, conflicts.begin(), conflicts.end(), border.front().first, border.front().second);
-  vertex->info() = static_cast<std::int32_t>(sites_.size());
-  touched_.push_back(vertex->info());
-  sites_.push_back(point);
-  mesh_->vertices.push_back(vertex);
-  for (const Base& base : bases)
-  {
-    base.outer->neighbor(base.facet)->info() = { -1, base.inside };
-  }
+  this->fill(point, dent);
   return Outcome::Placed;
+}
+
+DynamicSurface::Hole DynamicSurface::holeOf(const std::vector<std::int32_t>& cells)
+{
+  Hole hole;
+  for (const std::int32_t cell : cells)
+  {
+    marks_[cell] = 1;
+  }
+  for (const std::int32_t cell : cells)
+  {
+    for (std::int32_t facet = 4 * cell; inside_[cell] != 0 && facet < 4 * cell + 4; ++facet)
+    {
+      const std::int32_t beyond = delaunay_.beyond(facet) >> 2;
+      const Triangle corner = delaunay_.facet(facet);
+      if (marks_[beyond] == 0)
+      {
+        for (int k = 0; k < 3; ++k)
+        {
+          hole.edges.push_back({ corner[k], corner[(k + 1) % 3] });
+        }
+      }
+      else if (inside_[beyond] == 0)
+      {
+        hole.triangles.push_back(corner);
+      }
+    }
+  }
+  for (const std::int32_t cell : cells)
+  {
+    marks_[cell] = 0;
+  }
+  return hole;
+}
+
+// The new tetrahedra are inside where the old ones at their bases were, but for that at the dent.
+void DynamicSurface::fill(const Vec3& point, std::int32_t dent)
+{
+  std::vector<std::uint8_t> inside(cavity_.border.size());
+  for (std::size_t k = 0; k < inside.size(); ++k)
+  {
+    const std::int32_t facet = cavity_.border[k];
+    inside[k] = inside_[facet >> 2] ^ std::uint8_t(facet == dent);
+  }
+  for (const std::int32_t cell : cavity_.cells)
+  {
+    inside_[cell] = 0;
+  }
+  touched_.push_back(delaunay_.fill(point, cavity_));
+  inside_.resize(delaunay_.cellCount(), 0);
+  marks_.resize(delaunay_.cellCount(), 0);
+  for (std::size_t k = 0; k < inside.size(); ++k)
+  {
+    inside_[cavity_.cells[k]] = inside[k];
+  }
 }
 
 bool DynamicSurface::isNear(const Triangle& triangle, const Vec3& point, double tolerance)
 {
   nearTriangle_ = triangle;
-  nearDistance_ = std::sqrt(
-    nearestOnTriangle(point, sites_[triangle[0]], sites_[triangle[1]], sites_[triangle[2]])
-      .squaredDistance);
+  nearDistance_ = std::sqrt(nearestOnTriangle(
+    point, this->sites()[triangle[0]], this->sites()[triangle[1]], this->sites()[triangle[2]])
+                              .squaredDistance);
   return nearDistance_ <= tolerance;
 }
 
 // Lets the surface step on to a site that it has passed by, or not come to.
 DynamicSurface::Outcome DynamicSurface::surfaceAt(std::int32_t site, double tolerance)
 {
-  const Vertex vertex = mesh_->vertices[site];
-  std::vector<Cell>& star = mesh_->conflicts;
-  std::vector<Facet>& border = mesh_->border;
-  star.clear();
+  std::vector<std::int32_t>& star = cavity_.cells;
+  std::vector<std::int32_t>& border = cavity_.border;
+  delaunay_.star(site, star);
   border.clear();
-  mesh_->delaunay.incident_cells(vertex, std::back_inserter(star));
-  for (const Cell cell : star)
+  for (const std::int32_t cell : star)
   {
-    if (cell->info().inside != star[0]->info().inside)
+    if (inside_[cell] != inside_[star[0]])
     {
       return Outcome::Coincides; // it is on the surface
     }
-    border.emplace_back(cell, cell->index(vertex));
+    const auto& v = delaunay_.cell(cell).vertices;
+    border.push_back(
+      4 * cell + static_cast<std::int32_t>(std::find(v.begin(), v.end(), site) - v.begin()));
   }
-  const Facet facet = mesh_->facetTowards(sites_[site], sites_);
-  if (facet.first == Cell())
+  const Vec3& point = this->sites()[site];
+  const std::int32_t facet = this->facetTowards(point, border);
+  if (facet < 0)
   {
     return Outcome::Refused;
   }
-  const Triangle t = corners(facet.first, facet.second);
-  if (this->isNear(t, sites_[site], tolerance))
+  const Triangle t = delaunay_.facet(facet);
+  if (this->isNear(t, point, tolerance))
   {
     return Outcome::Near;
   }
-  facet.first->info().inside = !facet.first->info().inside;
+  inside_[facet >> 2] ^= 1;
   touched_.insert(touched_.end(), { site, t[0], t[1], t[2] });
   return Outcome::Surfaced;
 }
@@ -260,14 +200,11 @@ std::vector<std::int32_t> DynamicSurface::takeTouched()
 std::vector<Triangle> DynamicSurface::surface() const
 {
   std::vector<Triangle> triangles;
-  for (const Cell cell : mesh_->delaunay.finite_cell_handles())
+  for (std::int32_t facet = 0; facet < 4 * delaunay_.cellCount(); ++facet)
   {
-    for (int facet = 0; cell->info().inside && facet < 4; ++facet)
+    if (inside_[facet >> 2] != 0 && inside_[delaunay_.beyond(facet) >> 2] == 0)
     {
-      if (!cell->neighbor(facet)->info().inside)
-      {
-        triangles.push_back(corners(cell, facet));
-      }
+      triangles.push_back(delaunay_.facet(facet));
     }
   }
   return triangles;
@@ -276,24 +213,26 @@ std::vector<Triangle> DynamicSurface::surface() const
 // Where all that a point replaces is on one side of the surface: the surface's nearest facet on the
 // border that is not oriented Gabriel for the point, so that convection would step on to it. That
 // is one facet replaced by three about a new vertex, and never changes the topology.
-Facet DynamicSurface::Mesh::facetTowards(const Vec3& point, const std::vector<Vec3>& sites) const
+std::int32_t DynamicSurface::facetTowards(
+  const Vec3& point, const std::vector<std::int32_t>& border) const
 {
-  const auto site = toCgal(point);
-  Facet best;
+  const std::vector<Vec3>& sites = this->sites();
+  std::int32_t best = -1;
   double least = std::numeric_limits<double>::infinity();
-  for (const Facet& facet : border)
+  for (const std::int32_t facet : border)
   {
-    const Cell outer = facet.first->neighbor(facet.second);
-    if (outer->info().inside == facet.first->info().inside || delaunay.is_infinite(facet))
+    if (inside_[delaunay_.beyond(facet) >> 2] == inside_[facet >> 2])
     {
       continue;
     }
-    const Triangle t = corners(facet.first, facet.second);
+    const Triangle t = delaunay_.facet(facet);
+    if (t[0] < 0 || t[1] < 0 || t[2] < 0) // infinite
+    {
+      continue;
+    }
     const double squared =
       nearestOnTriangle(point, sites[t[0]], sites[t[1]], sites[t[2]]).squaredDistance;
-    if (squared < least &&
-      Kernel().side_of_bounded_sphere_3_object()(toCgal(sites[t[0]]), toCgal(sites[t[1]]),
-        toCgal(sites[t[2]]), site) == CGAL::ON_BOUNDED_SIDE)
+    if (squared < least && sideOfLeastBall(sites[t[0]], sites[t[1]], sites[t[2]], point) > 0)
     {
       least = squared;
       best = facet;

@@ -7,7 +7,6 @@
 #include "core/mesh/TriangleMesh.h"
 
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 namespace hybridtree
@@ -26,27 +25,22 @@ namespace hybridtree
 class DynamicSurface
 {
 public:
-  DynamicSurface();
-  ~DynamicSurface();
-  DynamicSurface(const DynamicSurface&) = delete;
-  DynamicSurface& operator=(const DynamicSurface&) = delete;
-
   /// The points of the tetrahedralization, in the order they came in.
-  const std::vector<Vec3>& sites() const { return sites_; }
+  const std::vector<Vec3>& sites() const { return delaunay_.points(); }
 
   /// Adds points without regard to the surface. \throws Cancelled.
   void insert(const std::vector<Vec3>& points, const Progress& progress);
 
   /// Whether the sites are four at least, and not all in one plane.
-  bool spansVolume() const;
+  bool spansVolume() const { return delaunay_.spansVolume(); }
 
   /// What static convection works on. \pre sites() does not change as long as the result lives.
   /// \throws InvalidGeometry, Cancelled.
   Tetrahedralization tetrahedralization(const Progress& progress) const;
 
-  /// Puts the surface around cells of tetrahedralization(), which must be that of all sites().
+  /// Puts the surface around cells of tetrahedralization(), made since the last site came.
   /// \param inside per cell, its boundary a closed 2-manifold.
-  void setInside(const std::vector<std::uint8_t>& inside);
+  void setInside(const Tetrahedralization& tetrahedra, const std::vector<std::uint8_t>& inside);
 
   enum class Outcome
   {
@@ -71,17 +65,21 @@ public:
   std::vector<Triangle> surface() const;
 
 private:
-  struct Mesh;
   struct Hole;
+  Hole holeOf(const std::vector<std::int32_t>& cells);
+  std::int32_t facetTowards(const Vec3& point, const std::vector<std::int32_t>& border) const;
   bool isNear(const Triangle& triangle, const Vec3& point, double tolerance);
+  void fill(const Vec3& point, std::int32_t dent);
   Outcome surfaceAt(std::int32_t site, double tolerance);
   bool keepsManifold(const Hole& hole) const;
 
-  std::vector<Vec3> sites_;
+  Delaunay delaunay_;
+  std::vector<std::uint8_t> inside_; // per cell
+  Delaunay::Cavity cavity_;          // scratch
+  std::vector<std::uint8_t> marks_;  // per cell; all 0 between uses
   Triangle nearTriangle_{ -1, -1, -1 };
   double nearDistance_ = 0.0;
   std::vector<std::int32_t> touched_;
-  std::unique_ptr<Mesh> mesh_;
 };
 
 } // namespace hybridtree

@@ -4,6 +4,7 @@
 #include "reconstruction/ConvectedSolid.h"
 #include "reconstruction/DynamicSurface.h"
 #include "reconstruction/PointOctree.h"
+#include "reconstruction/SpatialOrder.h"
 #include "reconstruction/Tetrahedralization.h"
 
 #include "core/base/Error.h"
@@ -176,7 +177,7 @@ void Refinement::add(const std::vector<std::int32_t>& points, const Progress& pr
   std::vector<Vec3> sites(points.size());
   std::transform(points.begin(), points.end(), sites.begin(),
     [&](std::int32_t point) { return points_[point]; });
-  const std::vector<std::int32_t> order = spatialOrder(sites);
+  const std::vector<std::int32_t> order = spatialOrder(sites, progress);
   for (std::size_t k = 0; k < order.size(); ++k)
   {
     const std::int32_t point = points[order[k]];
@@ -196,7 +197,7 @@ bool Refinement::convect(const Progress& progress)
   }
   const Tetrahedralization tetrahedra = surface_.tetrahedralization(progress);
   warnings_.clear();
-  surface_.setInside(convectSolid(tetrahedra, options_, warnings_, progress));
+  surface_.setInside(tetrahedra, convectSolid(tetrahedra, options_, warnings_, progress));
   triangles_ = surface_.surface();
   return warnings_.empty();
 }

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "core/base/Progress.h"
+#include "core/base/Types.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace hybridtree
+{
+
+/// Delaunay tetrahedralization of a growing point set, in plain arrays: Bowyer 1981 and Watson 1981
+/// with exact predicates.
+///
+/// Space outside of the convex hull is filled by infinite cells, one per facet of the hull, with
+/// kInfinite as one of their vertices. Facet i of a cell is the one opposite to its vertex i. A
+/// half-facet, 4 * cell + facet, is a facet as seen from one of its two cells.
+///
+/// A point is inserted where balls around tetrahedra hold it strictly. Of points on one sphere any
+/// Delaunay tetrahedralization comes out, the same one for the same points in the same order; no
+/// finite cell is ever flat. Not for several threads at once.
+class Delaunay
+{
+public:
+  static constexpr std::int32_t kInfinite = -1;
+  /// Corners of facet i of a cell, counter-clockwise seen from outside of the cell.
+  static constexpr int kFacetCorners[4][3] = { { 1, 2, 3 }, { 0, 3, 2 }, { 0, 1, 3 }, { 0, 2, 1 } };
+
+  struct Cell
+  {
+    std::array<std::int32_t, 4> vertices; // points; the first is kUnused in cells not in use
+    std::array<std::int32_t, 4> beyond;   // per facet, the half-facet on its other side
+  };
+
+  /// What a point would take the place of. Filled by findCavity; may be used over and over.
+  struct Cavity
+  {
+    std::vector<std::int32_t> cells;  // whose balls hold the point
+    std::vector<std::int32_t> border; // half-facets of those cells that bound them
+  };
+
+  /// Of a point: a cell that holds it; the vertex that it coincides with, else -1.
+  struct Place
+  {
+    std::int32_t cell;
+    std::int32_t vertex;
+  };
+
+  /// Appends points and inserts them; those that coincide with others stay without cells. As long
+  /// as all lie in one plane, none is inserted. Fastest where neighbours follow each other
+  /// (SpatialOrder.h). \pre finite. \throws Cancelled, TooLarge.
+  void insert(const std::vector<Vec3>& points, const Progress& progress);
+
+  const std::vector<Vec3>& points() const { return points_; }
+  bool spansVolume() const { return !cells_.empty(); }
+  /// Why spansVolume() does not hold. \throws InvalidGeometry.
+  void checkVolume() const;
+
+  /// All cells ever made; those not in use have no vertices.
+  std::int32_t cellCount() const { return static_cast<std::int32_t>(cells_.size()); }
+  const Cell& cell(std::int32_t cell) const { return cells_[cell]; }
+  bool used(std::int32_t cell) const { return cells_[cell].vertices[0] != kUnused; }
+  bool finite(std::int32_t cell) const;
+  std::array<std::int32_t, 3> facet(std::int32_t halfFacet) const;
+  std::int32_t beyond(std::int32_t halfFacet) const
+  {
+    return cells_[halfFacet >> 2].beyond[halfFacet & 3];
+  }
+  /// A cell around a vertex; -1 where the point is not inserted.
+  std::int32_t cellOf(std::int32_t vertex) const { return cellOf_[vertex]; }
+
+  /// All cells around a vertex that has one.
+  void star(std::int32_t vertex, std::vector<std::int32_t>& cells);
+
+  /// The rest serves who looks at what an insertion would change, and then decides.
+  /// \pre spansVolume(); the place found is the point's; nothing is inserted in between.
+  /// \param near a vertex from which to walk to the point.
+  Place locate(const Vec3& point, std::int32_t near);
+  /// \pre the point coincides with no vertex.
+  void findCavity(const Vec3& point, const Place& place, Cavity& cavity);
+  /// Inserts the point of the last findCavity. \returns its vertex.
+  /// cavity.cells is then the new cells: the k-th has the point as its vertex 0, and the k-th facet
+  /// of cavity.border as its facet 0.
+  std::int32_t fill(const Vec3& point, Cavity& cavity);
+
+private:
+  static constexpr std::int32_t kUnused = -2;
+  struct Base
+  {
+    std::array<std::int32_t, 3> corners;
+    std::int32_t outer;                // half-facet
+    std::array<std::int32_t, 3> local; // of the corners
+  };
+
+  bool insertFirst();
+  std::array<std::int32_t, 4> independent() const;
+  void insertPoint(std::int32_t point, std::int32_t& near);
+  std::int32_t walk(const Vec3& point, std::int32_t cell);
+  bool inConflict(const Cell& cell, const Vec3& point) const;
+  void fill(std::int32_t point, Cavity& cavity);
+  std::int32_t localOf(std::int32_t vertex);
+  void makeCells(std::int32_t point, Cavity& cavity);
+  void joinSmall(const std::vector<std::int32_t>& cells);
+  void joinLarge(const std::vector<std::int32_t>& cells);
+
+  std::vector<Vec3> points_;
+  std::vector<std::int32_t> cellOf_; // per point
+  std::vector<Cell> cells_;
+  std::vector<std::int32_t> unused_;
+  std::uint32_t turn_ = 1; // of the walk: where it looks first
+
+  // Scratch of one insertion.
+  Cavity cavity_;
+  std::vector<std::uint8_t> marks_; // per cell; all 0 between uses
+  std::vector<std::int32_t> marked_;
+  std::vector<Base> bases_;
+  std::vector<std::int32_t> local_; // per point + 1: its place in locals_, if there
+  std::vector<std::int32_t> locals_;
+  std::vector<std::int32_t> edges_; // half-facets by pairs of locals
+};
+
+} // namespace hybridtree
