@@ -31,7 +31,6 @@ bool solidIsMissing(const Tetrahedralization& tetrahedra, const std::vector<std:
   std::vector<std::uint8_t> seen(inside.size(), 0);
   std::vector<std::int32_t> lastSolid(tetrahedra.points().size(), -1); // that touched the point
   std::vector<std::int32_t> cells;
-  std::size_t most = 0;
   for (std::int32_t seed = 0; seed < tetrahedra.finiteCellCount(); ++seed)
   {
     if (!inside[seed] || seen[seed])
@@ -41,7 +40,7 @@ bool solidIsMissing(const Tetrahedralization& tetrahedra, const std::vector<std:
     std::size_t touched = 0;
     cells.assign(1, seed);
     seen[seed] = 1;
-    while (!cells.empty())
+    while (!cells.empty() && touched * 100 < tetrahedra.points().size())
     {
       const std::int32_t cell = cells.back();
       cells.pop_back();
@@ -58,9 +57,12 @@ bool solidIsMissing(const Tetrahedralization& tetrahedra, const std::vector<std:
         }
       }
     }
-    most = std::max(most, touched);
+    if (touched * 100 >= tetrahedra.points().size())
+    {
+      return false;
+    }
   }
-  return most * 100 < tetrahedra.points().size() || most == 0;
+  return true;
 }
 
 std::vector<std::uint8_t> solid(

@@ -2,6 +2,7 @@
 #include "reconstruction/Convection.h"
 
 #include "reconstruction/ConvectedSolid.h"
+#include "reconstruction/SolidBoundary.h"
 #include "reconstruction/SpatialOrder.h"
 #include "reconstruction/Tetrahedralization.h"
 
@@ -13,32 +14,27 @@ namespace
 {
 
 void appendBoundary(const Tetrahedralization& tetrahedra, const std::vector<std::uint8_t>& inside,
-  ReconstructedSurface& surface)
+  ReconstructedSurface& surface, const Progress& progress)
 {
   std::vector<std::int32_t> meshPoint(tetrahedra.points().size(), -1);
   TriangleMesh& mesh = surface.mesh;
-  for (std::int32_t cell = 0; cell < tetrahedra.finiteCellCount(); ++cell)
+  const std::vector<std::int32_t> facets = boundaryFacets(tetrahedra, inside, progress);
+  mesh.triangles.reserve(facets.size());
+  for (const std::int32_t facet : facets)
   {
-    for (int facet = 0; inside[cell] && facet < 4; ++facet)
+    Triangle triangle = tetrahedra.facet(facet >> 2, facet & 3);
+    for (std::int32_t& corner : triangle)
     {
-      if (inside[tetrahedra.neighbor(cell, facet)])
+      std::int32_t& point = meshPoint[corner];
+      if (point < 0)
       {
-        continue;
+        point = static_cast<std::int32_t>(mesh.points.size());
+        mesh.points.push_back(tetrahedra.points()[corner]);
+        surface.pointIds.push_back(corner);
       }
-      Triangle triangle = tetrahedra.facet(cell, facet);
-      for (std::int32_t& corner : triangle)
-      {
-        std::int32_t& point = meshPoint[corner];
-        if (point < 0)
-        {
-          point = static_cast<std::int32_t>(mesh.points.size());
-          mesh.points.push_back(tetrahedra.points()[corner]);
-          surface.pointIds.push_back(corner);
-        }
-        corner = point;
-      }
-      mesh.triangles.push_back(triangle);
+      corner = point;
     }
+    mesh.triangles.push_back(triangle);
   }
 }
 
@@ -56,7 +52,7 @@ ReconstructedSurface reconstruct(
   ReconstructedSurface surface;
   const std::vector<std::uint8_t> inside =
     convectSolid(tetrahedra, options, surface.warnings, ProgressPart(progress, 0.6, 1.0));
-  appendBoundary(tetrahedra, inside, surface);
+  appendBoundary(tetrahedra, inside, surface, progress);
   for (std::int32_t& point : surface.pointIds)
   {
     point = order[point];

@@ -78,7 +78,13 @@ double squaredEdge(const std::vector<Vec3>& points, std::int32_t a, std::int32_t
 FacetSize::FacetSize(const Tetrahedralization& tetrahedra, const Progress& progress)
   : tetrahedra_(tetrahedra)
 {
-  const std::size_t count = tetrahedra.points().size();
+  this->findSpacing(progress);
+  this->measureCells(progress);
+}
+
+void FacetSize::findSpacing(const Progress& progress)
+{
+  const std::size_t count = tetrahedra_.points().size();
   std::vector<double> sixth(count, std::numeric_limits<double>::infinity());
   std::vector<Nearest> nearest(count);
   parallelFor(count, kGrain,
@@ -87,7 +93,7 @@ FacetSize::FacetSize(const Tetrahedralization& tetrahedra, const Progress& progr
       progress.check();
       for (std::size_t vertex = begin; vertex < end; ++vertex)
       {
-        nearest[vertex].find(tetrahedra, static_cast<std::int32_t>(vertex));
+        nearest[vertex].find(tetrahedra_, static_cast<std::int32_t>(vertex));
         if (!nearest[vertex].empty())
         {
           sixth[vertex] = nearest[vertex].farthest();
@@ -112,18 +118,44 @@ FacetSize::FacetSize(const Tetrahedralization& tetrahedra, const Progress& progr
     });
 }
 
-double FacetSize::ofFacet(std::int32_t cell, int facet) const
+void FacetSize::measureCells(const Progress& progress)
 {
-  const auto v = tetrahedra_.facet(cell, facet);
-  double most = 0.0;
-  for (int k = 0; k < 3; ++k)
-  {
-    const std::int32_t a = v[k];
-    const std::int32_t b = v[(k + 1) % 3];
-    const double spacing = std::min(spacing_[a], spacing_[b]);
-    most = std::max(most, squaredEdge(tetrahedra_.points(), a, b) / (spacing * spacing));
-  }
-  return std::sqrt(most);
+  const auto count = static_cast<std::size_t>(tetrahedra_.finiteCellCount());
+  facets_.resize(count);
+  lengths_.resize(count);
+  std::vector<double> density(spacing_.size()); // one over the square of the spacing
+  std::transform(spacing_.begin(), spacing_.end(), density.begin(),
+    [](double spacing) { return 1.0 / (spacing * spacing); });
+  parallelFor(count, kGrain,
+    [&](std::size_t begin, std::size_t end)
+    {
+      progress.check();
+      for (std::size_t cell = begin; cell < end; ++cell)
+      {
+        const auto& v = tetrahedra_.cell(static_cast<std::int32_t>(cell));
+        double length = 0.0;
+        std::array<double, 4> size{};
+        for (int i = 0; i < 4; ++i)
+        {
+          for (int j = 0; j < i; ++j)
+          {
+            const double squared = squaredEdge(tetrahedra_.points(), v[i], v[j]);
+            const double relative = squared * std::max(density[v[i]], density[v[j]]);
+            length = std::max(length, squared);
+            for (int facet = 0; facet < 4; ++facet)
+            {
+              size[facet] =
+                facet != i && facet != j ? std::max(size[facet], relative) : size[facet];
+            }
+          }
+        }
+        lengths_[cell] = std::sqrt(length);
+        for (int facet = 0; facet < 4; ++facet)
+        {
+          facets_[cell][facet] = static_cast<float>(std::sqrt(size[facet]));
+        }
+      }
+    });
 }
 
 double FacetSize::certainOfFacet(std::int32_t cell, int facet) const
@@ -133,24 +165,12 @@ double FacetSize::certainOfFacet(std::int32_t cell, int facet) const
     std::max({ spacing_[v[0]], spacing_[v[1]], spacing_[v[2]] });
 }
 
-double FacetSize::ofCell(std::int32_t cell) const
-{
-  return std::max({ this->ofFacet(cell, 0), this->ofFacet(cell, 1), this->ofFacet(cell, 2) });
-}
-
 double FacetSize::lengthOfFacet(std::int32_t cell, int facet) const
 {
   const auto& p = tetrahedra_.points();
   const auto v = tetrahedra_.facet(cell, facet);
   return std::sqrt(std::max(
     { squaredEdge(p, v[0], v[1]), squaredEdge(p, v[1], v[2]), squaredEdge(p, v[2], v[0]) }));
-}
-
-double FacetSize::lengthOfCell(std::int32_t cell) const
-{
-  // Three facets have all six edges.
-  return std::max(
-    { this->lengthOfFacet(cell, 0), this->lengthOfFacet(cell, 1), this->lengthOfFacet(cell, 2) });
 }
 
 } // namespace hybridtree

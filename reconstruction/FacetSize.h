@@ -5,6 +5,9 @@
 
 #include "core/base/Progress.h"
 
+#include <algorithm>
+#include <array>
+#include <cstdint>
 #include <vector>
 
 namespace hybridtree
@@ -26,20 +29,29 @@ public:
 
   /// Over the spacing at each edge's denser end, the widest edge counts: what may be wide.
   /// \pre the cell is finite.
-  double ofFacet(std::int32_t cell, int facet) const;
+  float ofFacet(std::int32_t cell, int facet) const { return facets_[cell][facet]; }
   /// The same of a tetrahedron. \pre the cell is finite.
-  double ofCell(std::int32_t cell) const;
+  float ofCell(std::int32_t cell) const
+  {
+    const auto& size = facets_[cell]; // three facets have all six edges
+    return std::max({ size[0], size[1], size[2] });
+  }
   /// Over the spacing at the sparsest corner: what is wide for certain, since a cluster of points
   /// at one corner does not widen it. At most ofFacet. \pre the cell is finite.
   double certainOfFacet(std::int32_t cell, int facet) const;
 
   /// The same without regard to the spacing: the longest edge, in world units.
   double lengthOfFacet(std::int32_t cell, int facet) const;
-  double lengthOfCell(std::int32_t cell) const;
+  double lengthOfCell(std::int32_t cell) const { return lengths_[cell]; }
 
 private:
+  void findSpacing(const Progress& progress);
+  void measureCells(const Progress& progress);
+
   const Tetrahedralization& tetrahedra_;
-  std::vector<double> spacing_; // per point; infinite at duplicates
+  std::vector<double> spacing_;              // per point; infinite at duplicates
+  std::vector<std::array<float, 4>> facets_; // per finite cell
+  std::vector<double> lengths_;
 };
 
 } // namespace hybridtree

@@ -3,6 +3,7 @@
 
 #include "reconstruction/FacetSize.h"
 #include "reconstruction/Regions.h"
+#include "reconstruction/SizeQueue.h"
 #include "reconstruction/Tetrahedralization.h"
 
 #include "core/base/Progress.h"
@@ -22,6 +23,9 @@ namespace hybridtree
 ///   settles into the dents of the sampling;
 /// - tetrahedra of the inside never: it cannot leak through places of thin sampling.
 ///
+/// Empty space beside which the sampling is small is passed at once, if pockets are to be opened:
+/// there the order of steps would not matter.
+///
 /// All of this only where it leaves the topology alone, so no unevenness of the sampling makes a
 /// handle. Where the surface has come around an object from both sides, it stands back to back with
 /// itself: a membrane that no such step removes. When nothing else is left to do, the widest
@@ -40,21 +44,19 @@ public:
   const std::vector<std::uint8_t>& inside() const { return inside_; }
 
 private:
-  struct HalfFacet
+  // Half-facets are 4 * cell + facet.
+  struct Membrane
   {
     double size;
-    std::int32_t cell;
-    std::int32_t facet;
-    bool operator<(const HalfFacet& other) const
+    std::int32_t halfFacet;
+    bool operator<(const Membrane& other) const
     {
-      return size != other.size ? size < other.size
-        : cell != other.cell    ? cell < other.cell
-                                : facet < other.facet;
+      return size != other.size ? size < other.size : halfFacet < other.halfFacet;
     }
   };
   struct Waiting
   {
-    HalfFacet at;
+    std::int32_t halfFacet;
     std::int32_t next;
   };
 
@@ -63,11 +65,13 @@ private:
   {
     return this->isInside(cell) && !this->isInside(tetrahedra_.neighbor(cell, facet));
   }
+  void passEmptySpace(const Progress& progress);
+  std::int32_t nextToPass();
   void uncover(std::int32_t cell, int facet);
   void cancel(std::int32_t cell, int facet);
   bool mayEverPass(std::int32_t cell, int facet) const;
-  bool mayPass(const HalfFacet& at);
-  void hold(const HalfFacet& at, std::int32_t vertex);
+  bool mayPass(std::int32_t halfFacet);
+  void hold(std::int32_t halfFacet, std::int32_t vertex);
   void release(std::int32_t vertex);
   void tear(std::int32_t cell);
   void pass(std::int32_t cell);
@@ -84,8 +88,8 @@ private:
   std::vector<std::int32_t> firstWaiting_;
   std::vector<Waiting> waiting_;
   std::int32_t unused_ = -1; // first of the pool's free entries
-  std::priority_queue<HalfFacet> queue_;
-  std::priority_queue<HalfFacet> membranes_;
+  SizeQueue queue_;
+  std::priority_queue<Membrane> membranes_;
 };
 
 } // namespace hybridtree

@@ -22,51 +22,60 @@ constexpr std::size_t kGrain = 4096;
 // How many steps between two looks at whether to go on.
 constexpr std::size_t kBreath = 65536;
 
+// A facet between two cells, by size: widest first where sorted.
 struct Passage
 {
-  double size;
-  std::int32_t cell;
-  std::int32_t facet;
+  float size;
+  std::int32_t halfFacet; // 4 * cell + facet
   bool operator<(const Passage& other) const
   {
-    return size != other.size ? size > other.size
-      : cell != other.cell    ? cell < other.cell
-                              : facet < other.facet;
+    return size != other.size ? size > other.size : halfFacet < other.halfFacet;
   }
 };
 
-// Widest first.
-std::vector<Passage> widePassages(const Tetrahedralization& tetrahedra, const FacetSize& sizes,
-  double wide, const Progress& progress)
+struct Passages
+{
+  std::vector<std::int32_t> mouths; // half-facets wider than a mouth, in any order
+  std::vector<Passage> narrower;    // widest first
+};
+
+Passages widePassages(const Tetrahedralization& tetrahedra, const FacetSize& sizes, double wide,
+  double mouth, const Progress& progress)
 {
   const auto count = static_cast<std::size_t>(tetrahedra.finiteCellCount());
-  std::vector<std::vector<Passage>> parts((count + kGrain - 1) / kGrain);
+  std::vector<Passages> parts((count + kGrain - 1) / kGrain);
   parallelFor(count, kGrain,
     [&](std::size_t begin, std::size_t end)
     {
       progress.check();
+      Passages& part = parts[begin / kGrain];
       for (auto cell = static_cast<std::int32_t>(begin); cell < static_cast<std::int32_t>(end);
            ++cell)
       {
         for (int facet = 0; facet < 4; ++facet)
         {
-          const double size =
-            tetrahedra.neighbor(cell, facet) > cell ? sizes.ofFacet(cell, facet) : 0.0;
-          if (size > wide)
+          const float size =
+            tetrahedra.neighbor(cell, facet) > cell ? sizes.ofFacet(cell, facet) : 0.0f;
+          if (size > mouth)
           {
-            parts[begin / kGrain].push_back({ size, cell, facet });
+            part.mouths.push_back(4 * cell + facet);
+          }
+          else if (size > wide)
+          {
+            part.narrower.push_back({ size, 4 * cell + facet });
           }
         }
       }
     });
-  std::vector<Passage> passages;
-  for (std::vector<Passage>& part : parts)
+  Passages all;
+  for (Passages& part : parts)
   {
-    passages.insert(passages.end(), part.begin(), part.end());
-    std::vector<Passage>().swap(part);
+    all.mouths.insert(all.mouths.end(), part.mouths.begin(), part.mouths.end());
+    all.narrower.insert(all.narrower.end(), part.narrower.begin(), part.narrower.end());
+    part = {};
   }
-  parallelSort(passages, progress);
-  return passages;
+  parallelSort(all.narrower, progress);
+  return all;
 }
 
 // Disjoint sets of cells that know the longest edge of theirs.
@@ -123,24 +132,36 @@ std::vector<Region> findRegions(const Tetrahedralization& tetrahedra, const Face
   double wide, double mouth, const Progress& progress)
 {
   Basins basins(tetrahedra, sizes, progress);
+  const Passages passages = widePassages(tetrahedra, sizes, wide, mouth, progress);
   std::size_t step = 0;
-  for (const Passage& passage : widePassages(tetrahedra, sizes, wide, progress))
+  const auto forSides = [&](std::int32_t halfFacet, const auto& visit)
   {
     if (++step % kBreath == 0)
     {
       progress.check();
     }
-    const std::int32_t here = basins.find(passage.cell);
-    const std::int32_t there = basins.find(tetrahedra.neighbor(passage.cell, passage.facet));
-    if (here == there)
+    const std::int32_t here = basins.find(halfFacet >> 2);
+    const std::int32_t there = basins.find(tetrahedra.neighbor(halfFacet >> 2, halfFacet & 3));
+    if (here != there)
     {
-      continue;
+      visit(here, there);
     }
-    const double shallow = std::min(basins.depth(here), basins.depth(there));
-    if (passage.size > mouth || shallow < kDepth * sizes.lengthOfFacet(passage.cell, passage.facet))
-    {
-      basins.join(here, there);
-    }
+  };
+  for (const std::int32_t halfFacet : passages.mouths)
+  {
+    forSides(halfFacet, [&](std::int32_t here, std::int32_t there) { basins.join(here, there); });
+  }
+  for (const Passage& passage : passages.narrower)
+  {
+    forSides(passage.halfFacet,
+      [&](std::int32_t here, std::int32_t there)
+      {
+        const double length = sizes.lengthOfFacet(passage.halfFacet >> 2, passage.halfFacet & 3);
+        if (std::min(basins.depth(here), basins.depth(there)) < kDepth * length)
+        {
+          basins.join(here, there);
+        }
+      });
   }
   std::vector<Region> regions(tetrahedra.cellCount(), Region::Outside);
   const std::int32_t outside = basins.find(tetrahedra.finiteCellCount());

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "reconstruction/SolidRepair.h"
 
+#include "reconstruction/SolidBoundary.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace hybridtree
 {
@@ -40,8 +41,8 @@ public:
   std::size_t run()
   {
     this->removeCrumbsAndVoids();
-    unmended_.resize(tetrahedra_.points().size());
-    std::iota(unmended_.begin(), unmended_.end(), 0);
+    unmended_ = pinchedVertices(tetrahedra_, inside_, progress_);
+    const std::size_t tidy = changes_;
     bool left = true;
     for (mostFlips_ = 1; left && mostFlips_ <= kMostFlips; ++mostFlips_)
     {
@@ -54,8 +55,10 @@ public:
     {
       this->mendVertices(&SolidRepair::fillStar);
     }
-
-    this->removeCrumbsAndVoids();
+    if (changes_ != tidy)
+    {
+      this->removeCrumbsAndVoids();
+    }
     return changes_;
   }
 
@@ -84,7 +87,7 @@ private:
   std::vector<std::uint8_t> flips_;
   std::vector<std::uint8_t> waiting_;
   std::vector<std::int32_t> vertices_; // that wait
-  std::vector<std::int32_t> unmended_; // that no change was found for; at first, all
+  std::vector<std::int32_t> unmended_; // that no change was found for
   std::size_t changes_ = 0;
   long leastGain_ = 1; // of a change, in clumps too many
   int mostFlips_ = 1;  // of a cell, for changes that gain nothing

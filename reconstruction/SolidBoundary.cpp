@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "reconstruction/SolidBoundary.h"
+
+#include "core/base/Parallel.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+
+namespace hybridtree
+{
+namespace
+{
+
+constexpr std::size_t kGrain = 16384;
+
+// An edge opposite to a vertex in a triangle around it.
+struct LinkEdge
+{
+  std::int32_t from;
+  std::int32_t to;
+  bool operator<(const LinkEdge& other) const
+  {
+    return from != other.from ? from < other.from : to < other.to;
+  }
+};
+
+// Whether the edges, which are sorted for it, are one simple loop.
+bool isLoop(LinkEdge* begin, LinkEdge* end)
+{
+  std::sort(begin, end);
+  const LinkEdge* at = begin;
+  std::ptrdiff_t steps = 0;
+  do
+  {
+    at = std::lower_bound(begin, end, LinkEdge{ at->to, -1 });
+    if (at == end)
+    {
+      return false;
+    }
+    ++steps;
+  } while (at != begin && steps <= end - begin);
+  // Who is back after as many steps as there are edges has met each, so each starts elsewhere.
+  return at == begin && steps == end - begin;
+}
+
+// Vectors of parts, one after the other.
+std::vector<std::int32_t> joined(const std::vector<std::vector<std::int32_t>>& parts)
+{
+  std::vector<std::int32_t> all;
+  for (const auto& part : parts)
+  {
+    all.insert(all.end(), part.begin(), part.end());
+  }
+  return all;
+}
+
+} // namespace
+
+std::vector<std::int32_t> boundaryFacets(const Tetrahedralization& tetrahedra,
+  const std::vector<std::uint8_t>& inside, const Progress& progress)
+{
+  const auto count = static_cast<std::size_t>(tetrahedra.finiteCellCount());
+  std::vector<std::vector<std::int32_t>> parts((count + kGrain - 1) / kGrain);
+  parallelFor(count, kGrain,
+    [&](std::size_t begin, std::size_t end)
+    {
+      progress.check();
+      for (std::size_t k = begin; k < end; ++k)
+      {
+        const auto cell = static_cast<std::int32_t>(k);
+        for (int facet = 0; inside[k] != 0 && facet < 4; ++facet)
+        {
+          if (inside[tetrahedra.neighbor(cell, facet)] == 0)
+          {
+            parts[begin / kGrain].push_back(4 * cell + facet);
+          }
+        }
+      }
+    });
+  return joined(parts);
+}
+
+std::vector<std::int32_t> pinchedVertices(const Tetrahedralization& tetrahedra,
+  const std::vector<std::uint8_t>& inside, const Progress& progress)
+{
+  const std::vector<std::int32_t> facets = boundaryFacets(tetrahedra, inside, progress);
+  const std::size_t count = tetrahedra.points().size();
+  std::vector<std::size_t> offset(count + 1, 0);
+  for (const std::int32_t facet : facets)
+  {
+    for (const std::int32_t vertex : tetrahedra.facet(facet >> 2, facet & 3))
+    {
+      ++offset[vertex + 1];
+    }
+  }
+  std::partial_sum(offset.begin(), offset.end(), offset.begin());
+  progress.check();
+  std::vector<LinkEdge> edges(offset.back());
+  std::vector<std::size_t> next(offset.begin(), offset.end() - 1);
+  for (const std::int32_t facet : facets)
+  {
+    const auto v = tetrahedra.facet(facet >> 2, facet & 3);
+    for (int corner = 0; corner < 3; ++corner)
+    {
+      edges[next[v[corner]]++] = { v[(corner + 1) % 3], v[(corner + 2) % 3] };
+    }
+  }
+  std::vector<std::vector<std::int32_t>> parts((count + kGrain - 1) / kGrain);
+  parallelFor(count, kGrain,
+    [&](std::size_t begin, std::size_t end)
+    {
+      progress.check();
+      for (std::size_t vertex = begin; vertex < end; ++vertex)
+      {
+        LinkEdge* first = edges.data() + offset[vertex];
+        LinkEdge* last = edges.data() + offset[vertex + 1];
+        if (first != last && !isLoop(first, last))
+        {
+          parts[begin / kGrain].push_back(static_cast<std::int32_t>(vertex));
+        }
+      }
+    });
+  return joined(parts);
+}
+
+} // namespace hybridtree
