@@ -95,8 +95,8 @@ void addHead(Builder& alien, std::int32_t hub)
   {
     const std::int32_t root = rim[side < 0.0 ? 1 : 4];
     const Vec3 at = alien.graph.points[root];
-    const std::int32_t a = alien.point(at + Vec3(side * 0.5, 0.1, 0.5), 0.1);
-    const std::int32_t b = alien.point(at + Vec3(side * 0.7, -0.1, 0.1), 0.1);
+    const std::int32_t a = alien.point(at + Vec3(side * 0.35, 0.1, 0.45), 0.2);
+    const std::int32_t b = alien.point(at + Vec3(side * 0.55, -0.1, 0.0), 0.2);
     const std::int32_t c = alien.point(at + Vec3(side * 1.2, 0.1, 0.7), 0.08);
     const std::int32_t d = alien.point(at + Vec3(side * 1.4, -0.1, 0.2), 0.08);
     alien.triangle(root, b, a);

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/subdivision/PieceMesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+namespace hybridtree
+{
+namespace
+{
+
+constexpr int kMaxRounds = 8;
+constexpr double kShortest = 0.1; // edge that may be split, in radii
+constexpr std::int32_t kSettled = -1;
+
+using Edge = std::array<std::int32_t, 2>;
+
+std::uint64_t keyOf(std::int32_t a, std::int32_t b)
+{
+  return std::uint64_t(std::uint32_t(std::min(a, b))) << 32 | std::uint32_t(std::max(a, b));
+}
+
+class Refiner
+{
+public:
+  Refiner(const PieceCage& cage, const FieldSource& field, const PieceMeshOptions& options)
+    : field_(field), options_(options), radii_(cage.radii)
+  {
+    mesh_.triangles = cage.triangles;
+  }
+
+  PieceMesh run(const PieceCage& cage, const std::vector<double>& before)
+  {
+    placeCage(cage, before);
+    for (int round = 0; round < kMaxRounds && splitEdges(); ++round)
+    {
+      divideTriangles();
+    }
+    return std::move(mesh_);
+  }
+
+private:
+  void placeCage(const PieceCage& cage, const std::vector<double>& before);
+  bool splitEdges();
+  std::vector<Edge> newEdges();
+  bool isOff(const Edge& edge, double value, double length) const;
+  void addMiddles(const std::vector<Edge>& edges, const std::vector<SkeletonAxis>& axes);
+  void addPoint(const Vec3& point, const Vec3& normal, bool onSurface);
+  void divideTriangles();
+  void divide(const Triangle& triangle, std::vector<Triangle>& result) const;
+  std::int32_t middle(std::int32_t a, std::int32_t b) const { return middles_.at(keyOf(a, b)); }
+
+  const FieldSource& field_;
+  const PieceMeshOptions& options_;
+  PieceMesh mesh_;
+  std::vector<double> radii_;
+  std::unordered_map<std::uint64_t, std::int32_t> middles_; // the vertex, or kSettled
+};
+
+void Refiner::addPoint(const Vec3& point, const Vec3& normal, bool onSurface)
+{
+  mesh_.points.push_back(point);
+  mesh_.normals.push_back(normal);
+  mesh_.onSurface.push_back(onSurface ? 1 : 0);
+}
+
+void Refiner::placeCage(const PieceCage& cage, const std::vector<double>& before)
+{
+  std::vector<SkeletonAxis> axes = cage.axes;
+  if (before.size() == axes.size())
+  {
+    for (std::size_t k = 0; k < axes.size(); ++k)
+    {
+      axes[k].start = before[k] * cage.radii[k];
+    }
+  }
+  std::vector<Vec3> gradient;
+  const std::vector<double> found = slideAxes(field_, axes, &gradient);
+  for (std::size_t k = 0; k < axes.size(); ++k)
+  {
+    const bool isFound = !std::isnan(found[k]);
+    // One that finds nothing ends inside of what it runs into.
+    const double t = isFound ? found[k] : cage.radii[k];
+    const bool steep = isFound && gradient[k].norm() > 0.0;
+    addPoint(axes[k].base + t * axes[k].direction,
+      steep ? Vec3(-gradient[k].normalized()) : axes[k].direction, isFound);
+    mesh_.bases.push_back(axes[k].base);
+    mesh_.axisLengths.push_back(t / cage.radii[k]);
+  }
+}
+
+std::vector<Edge> Refiner::newEdges()
+{
+  std::vector<Edge> edges;
+  for (const Triangle& triangle : mesh_.triangles)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      const std::int32_t a = triangle[k];
+      const std::int32_t b = triangle[(k + 1) % 3];
+      if (middles_.try_emplace(keyOf(a, b), kSettled).second)
+      {
+        edges.push_back({ a, b });
+      }
+    }
+  }
+  return edges;
+}
+
+bool Refiner::isOff(const Edge& edge, double value, double length) const
+{
+  const double radius = 0.5 * (radii_[edge[0]] + radii_[edge[1]]);
+  if (length < kShortest * radius)
+  {
+    return false;
+  }
+  const double tolerance = options_.refinement * kThreshold;
+  if (!mesh_.onSurface[edge[0]] || !mesh_.onSurface[edge[1]])
+  {
+    return value < kThreshold - tolerance; // what is inside may stay as it is
+  }
+  const bool isLong = options_.longestEdge > 0.0 && length > options_.longestEdge;
+  return isLong || std::abs(value - kThreshold) > tolerance;
+}
+
+/// \return whether any edge has a new vertex.
+bool Refiner::splitEdges()
+{
+  const std::vector<Edge> edges = newEdges();
+  std::vector<Vec3> middles;
+  for (const auto& [a, b] : edges)
+  {
+    middles.push_back(0.5 * (mesh_.points[a] + mesh_.points[b]));
+  }
+  std::vector<double> value;
+  std::vector<Vec3> gradient;
+  fieldAndGradientAt(field_, middles, value, gradient);
+  std::vector<Edge> split;
+  std::vector<SkeletonAxis> axes;
+  for (std::size_t k = 0; k < edges.size(); ++k)
+  {
+    const auto [a, b] = edges[k];
+    const double length = (mesh_.points[b] - mesh_.points[a]).norm();
+    if (!isOff(edges[k], value[k], length))
+    {
+      continue;
+    }
+    const double steepness = gradient[k].norm();
+    const Vec3 outward = steepness > 0.0 ? Vec3(-gradient[k] / steepness)
+                                         : (mesh_.normals[a] + mesh_.normals[b]).normalized();
+    const double reach = std::min(0.75 * length, 0.5 * (radii_[a] + radii_[b]));
+    split.push_back(edges[k]);
+    axes.push_back({ middles[k], outward, 0.0, -reach, reach, 0.5 * reach });
+  }
+  addMiddles(split, axes);
+  return !split.empty();
+}
+
+void Refiner::addMiddles(const std::vector<Edge>& edges, const std::vector<SkeletonAxis>& axes)
+{
+  std::vector<Vec3> gradient;
+  const std::vector<double> found = slideAxes(field_, axes, &gradient);
+  for (std::size_t k = 0; k < edges.size(); ++k)
+  {
+    const auto [a, b] = edges[k];
+    const bool isFound = !std::isnan(found[k]);
+    middles_[keyOf(a, b)] = std::int32_t(mesh_.points.size());
+    const bool steep = isFound && gradient[k].norm() > 0.0;
+    addPoint(axes[k].base + (isFound ? found[k] : 0.0) * axes[k].direction,
+      steep ? Vec3(-gradient[k].normalized()) : axes[k].direction, isFound);
+    mesh_.bases.push_back(0.5 * (mesh_.bases[a] + mesh_.bases[b]));
+    radii_.push_back(0.5 * (radii_[a] + radii_[b]));
+  }
+}
+
+void Refiner::divideTriangles()
+{
+  std::vector<Triangle> result;
+  result.reserve(2 * mesh_.triangles.size());
+  for (const Triangle& triangle : mesh_.triangles)
+  {
+    divide(triangle, result);
+  }
+  mesh_.triangles = std::move(result);
+}
+
+void Refiner::divide(const Triangle& triangle, std::vector<Triangle>& result) const
+{
+  std::array<std::int32_t, 3> at; // on the edge from a corner to the next
+  int count = 0;
+  for (int k = 0; k < 3; ++k)
+  {
+    at[k] = middle(triangle[k], triangle[(k + 1) % 3]);
+    count += at[k] != kSettled ? 1 : 0;
+  }
+  if (count == 0)
+  {
+    result.push_back(triangle);
+    return;
+  }
+  if (count == 3)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      result.push_back({ triangle[k], at[k], at[(k + 2) % 3] });
+    }
+    result.push_back({ at[0], at[1], at[2] });
+    return;
+  }
+  // Turned so that the only edge that is split, or the only one that is not, is the first.
+  int first = 0;
+  while ((at[first] != kSettled) != (count == 1))
+  {
+    ++first;
+  }
+  const std::int32_t a = triangle[first];
+  const std::int32_t b = triangle[(first + 1) % 3];
+  const std::int32_t c = triangle[(first + 2) % 3];
+  if (count == 1)
+  {
+    const std::int32_t ab = at[first];
+    result.push_back({ a, ab, c });
+    result.push_back({ ab, b, c });
+    return;
+  }
+  const std::int32_t bc = at[(first + 1) % 3];
+  const std::int32_t ca = at[(first + 2) % 3];
+  result.push_back({ bc, c, ca });
+  const auto length = [&](std::int32_t p, std::int32_t q)
+  { return (mesh_.points[p] - mesh_.points[q]).squaredNorm(); };
+  if (length(a, bc) < length(b, ca))
+  {
+    result.push_back({ a, b, bc });
+    result.push_back({ a, bc, ca });
+  }
+  else
+  {
+    result.push_back({ a, b, ca });
+    result.push_back({ b, bc, ca });
+  }
+}
+
+} // namespace
+
+PieceMesh refineCage(const PieceCage& cage, const FieldSource& field,
+  const PieceMeshOptions& options, const std::vector<double>& before)
+{
+  return Refiner(cage, field, options).run(cage, before);
+}
+
+} // namespace hybridtree

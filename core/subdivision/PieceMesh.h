@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "core/subdivision/PieceCage.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace hybridtree
+{
+
+struct PieceMeshOptions
+{
+  /// eta: an edge is split where |f(middle) - T| > eta * T ([SUB] 4.2). (0, 1]; 0.1 gives a round
+  /// limb about twelve sides.
+  double refinement = 0.1;
+  /// Edges are split until they are no longer than this, world units; 0: by eta alone.
+  double longestEdge = 0.0;
+};
+
+/// The surface around one piece. Closed, oriented outward, a 2-manifold.
+struct PieceMesh
+{
+  std::vector<Vec3> points;
+  std::vector<Vec3> normals;           ///< -grad f / |grad f|; along the axis where not settled
+  std::vector<std::uint8_t> onSurface; ///< per point: 0 inside of other pieces, where no surface is
+  std::vector<Vec3> bases;             ///< per point: the place of the skeleton it belongs to
+  std::vector<Triangle> triangles;
+  std::vector<double> axisLengths; ///< where the vertices of the cage were found, in radii
+};
+
+/// Lets the vertices of a cage slide to the surface, then splits edges until they follow it.
+///
+/// A triangle is divided by those of its edges that are split, in two, three or four (Figure 11
+/// without the points that would have to be snapped: there are no T-junctions). New vertices go to
+/// the surface along the gradient. Edges shorter than a tenth of the radius are not split, so that
+/// creases, where parts are united and not blended, end the splitting.
+///
+/// \param before axisLengths of an earlier mesh of this piece, for a quick start; of no account
+/// when their number differs.
+PieceMesh refineCage(const PieceCage& cage, const FieldSource& field,
+  const PieceMeshOptions& options, const std::vector<double>& before = {});
+
+} // namespace hybridtree

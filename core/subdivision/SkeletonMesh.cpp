@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/subdivision/SkeletonMesh.h"
+
+#include <cmath>
+
+namespace hybridtree
+{
+namespace
+{
+
+constexpr double kLongest = 4.0 / 3.0; // edge, in cells
+constexpr double kMargin = 0.25;       // around triangles, in cells: more than pieces differ by
+
+/// Which part of which piece is in a cell.
+struct Owner
+{
+  std::size_t piece;
+  Vec3 base;
+};
+
+class Marker
+{
+public:
+  explicit Marker(const CellGrid& grid) : grid_(grid) {}
+
+  CellSet take()
+  {
+    cells_.fillDiagonals();
+    cells_.sort();
+    return std::move(cells_);
+  }
+
+  void addPiece(
+    std::size_t number, const PieceMesh& piece, const FieldSource& field, double tolerance)
+  {
+    std::vector<Vec3> centers;
+    for (const auto& [a, b, c] : piece.triangles)
+    {
+      centers.push_back((piece.points[a] + piece.points[b] + piece.points[c]) / 3.0);
+    }
+    const std::vector<double> values = fieldAt(field, centers);
+    for (std::size_t t = 0; t < piece.triangles.size(); ++t)
+    {
+      const auto& [a, b, c] = piece.triangles[t];
+      const bool settled = piece.onSurface[a] && piece.onSurface[b] && piece.onSurface[c] &&
+        std::abs(values[t] - kThreshold) <= tolerance;
+      Box3 box(piece.points[a]);
+      box.extend(piece.points[b]);
+      box.extend(piece.points[c]);
+      const Vec3 base = (piece.bases[a] + piece.bases[b] + piece.bases[c]) / 3.0;
+      // Neighbours around a limb share their base; beyond its thickness begins another part.
+      const double apart = 2.0 * (centers[t] - base).norm() + 2.0 * grid_.cellSize;
+      visitCells(box,
+        [&](const Index3& cell)
+        {
+          const auto [found, isNew] = owners_.try_emplace(cell, Owner{ number, base });
+          const bool alone =
+            isNew || (found->second.piece == number && (found->second.base - base).norm() < apart);
+          if (!settled || !alone)
+          {
+            cells_.insert(cell);
+          }
+        });
+    }
+  }
+
+private:
+  template <typename Visit>
+  void visitCells(Box3 box, Visit&& visit) const
+  {
+    box.min().array() -= kMargin * grid_.cellSize;
+    box.max().array() += kMargin * grid_.cellSize;
+    const Index3 low = grid_.cellAt(box.min());
+    const Index3 high = grid_.cellAt(box.max());
+    for (std::int64_t z = low[2]; z <= high[2]; ++z)
+    {
+      for (std::int64_t y = low[1]; y <= high[1]; ++y)
+      {
+        for (std::int64_t x = low[0]; x <= high[0]; ++x)
+        {
+          visit(Index3{ x, y, z });
+        }
+      }
+    }
+  }
+
+  const CellGrid& grid_;
+  CellSet cells_;
+  std::unordered_map<Index3, Owner, Index3Hash> owners_;
+};
+
+MeshPtr withoutExtras(const PieceMesh& piece)
+{
+  auto mesh = std::make_shared<TriangleMesh>();
+  mesh->points = piece.points;
+  mesh->normals = piece.normals;
+  mesh->triangles = piece.triangles;
+  return mesh;
+}
+
+} // namespace
+
+CellSet cellsWherePiecesMeet(const std::vector<PieceMeshPtr>& pieces, const FieldSource& field,
+  double refinement, const CellGrid& grid)
+{
+  Marker marker(grid);
+  for (std::size_t k = 0; k < pieces.size(); ++k)
+  {
+    marker.addPiece(k, *pieces[k], field, 2.0 * refinement * kThreshold);
+  }
+  return marker.take();
+}
+
+std::optional<StitchedMesh> skeletonMesh(const SkeletonField& skeleton,
+  const SkeletonMeshOptions& options, PieceMeshCache* cache, const Progress& progress)
+{
+  PieceMeshOptions pieceOptions;
+  pieceOptions.refinement = options.refinement;
+  pieceOptions.longestEdge = kLongest * options.edgeLength;
+  const std::vector<PieceMeshPtr> pieces =
+    pieceMeshes(skeleton, pieceOptions, cache, ProgressPart(progress, 0.0, 0.4));
+  StitchOptions stitching;
+  stitching.grid = CellGrid::ofLevel(options.edgeLength, 1);
+  stitching.maxBytes = options.maxBytes;
+  CellSet cells = cellsWherePiecesMeet(pieces, skeleton.field, options.refinement, stitching.grid);
+  std::vector<KeptPart> parts;
+  for (const PieceMeshPtr& piece : pieces)
+  {
+    if (!piece->triangles.empty())
+    {
+      KeptPart part;
+      part.mesh = withoutExtras(*piece);
+      parts.push_back(std::move(part));
+    }
+  }
+  return stitch(
+    skeleton.field, parts, std::move(cells), stitching, ProgressPart(progress, 0.4, 1.0));
+}
+
+} // namespace hybridtree

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "core/polygonize/FieldSource.h"
+
+#include <vector>
+
+namespace hybridtree
+{
+
+/// A line on which a vertex finds the surface ([SUB] 4.1): base + t * direction.
+struct SkeletonAxis
+{
+  Vec3 base = Vec3::Zero();
+  Vec3 direction = Vec3::Zero(); ///< unit length, from the inside out
+  double start = 0.0;            ///< t where the search begins: the last known place is best
+  double least = 0.0;            ///< of t
+  double most = 0.0;             ///< of t
+  double step = 0.0; ///< longest, as long as the surface is not between two known places
+};
+
+/// t on f = T for each axis, not-a-number where none was found between least and most.
+///
+/// Newton's steps, kept within the bracket of an inner and an outer place and halving it where they
+/// leave it; until both are known, outwards from inside and inwards from outside by steps that are
+/// never longer than `step`. |f - T| <= 1e-7 T at the end. All axes go in step, so that the field
+/// is asked in batches; neighbours in the list should be neighbours in space.
+/// \param gradient of the field at each place found; null when nobody asks.
+std::vector<double> slideAxes(const FieldSource& field, const std::vector<SkeletonAxis>& axes,
+  std::vector<Vec3>* gradient = nullptr);
+
+/// The field at points, asked in batches.
+std::vector<double> fieldAt(const FieldSource& field, const std::vector<Vec3>& points);
+
+/// The same, with its gradients.
+void fieldAndGradientAt(const FieldSource& field, const std::vector<Vec3>& points,
+  std::vector<double>& value, std::vector<Vec3>& gradient);
+
+} // namespace hybridtree
