@@ -5,6 +5,7 @@
 #include "core/base/Scratch.h"
 #include "core/mesh/Remesh.h"
 #include "core/nodes/LatticeMesh.h"
+#include "core/nodes/LocalPoints.h"
 #include "core/skeletons/SkeletonFactory.h"
 
 #include <Eigen/SVD>
@@ -17,30 +18,6 @@ namespace hybridtree
 {
 namespace
 {
-
-// Points in the leaf's own space: those given, or their images in scratch memory.
-class LocalPoints
-{
-public:
-  /// \param inverse null for the identity.
-  LocalPoints(PointBatch points, const Affine3* inverse)
-    : scratch_(inverse ? points.size : 0), points_(inverse ? scratch_.points() : points)
-  {
-    if (inverse)
-    {
-      const VectorBatch local = scratch_.batch();
-      for (std::size_t k = 0; k < points.size; ++k)
-      {
-        local.set(k, *inverse * points[k]);
-      }
-    }
-  }
-  operator PointBatch() const { return points_; }
-
-private:
-  ScratchVectors scratch_;
-  PointBatch points_;
-};
 
 // Distances at coordinates of this size carry rounding of this order.
 double roundingAt(const Box3& box)

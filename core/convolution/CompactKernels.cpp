@@ -1,0 +1,363 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/convolution/ConvolutionKernels.h"
+
+// Compiled once per instruction set.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/convolution/CompactKernels.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target, as Highway wants it.
+#include "core/convolution/ConvolutionKernels-inl.h"
+#include <hwy/contrib/math/math-inl.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace hybridtree
+{
+namespace HWY_NAMESPACE
+{
+
+// Integral of (q - y^2)^n over y from y0 to y1. Exponent 0 means: known only at run time.
+template <int Exponent>
+struct CompactSegmentIntegral
+{
+  int exponent;
+
+  explicit CompactSegmentIntegral(const ConvolutionKernel& kernel)
+    : exponent(Exponent == 0 ? kernel.exponent : Exponent)
+  {
+  }
+
+  struct Result
+  {
+    V integral;   // with exponent n
+    V lower;      // with exponent n - 1
+    V start, end; // the integrand at both ends, 0 where the reach cuts it off
+  };
+
+  HWY_INLINE bool integrate(const SegmentView& view, Result& result) const
+  {
+    const V zero = hn::Zero(D());
+    const V root = hn::Sqrt(hn::Max(view.q, zero));
+    const V low = hn::Max(view.y0, hn::Neg(root));
+    V high = hn::Min(view.y1, root);
+    const auto reached = hn::Lt(low, high);
+    if (hn::AllFalse(D(), reached))
+    {
+      return false;
+    }
+    high = hn::IfThenElse(reached, high, low);
+    const V start = hn::Max(zero, hn::NegMulAdd(low, low, view.q));
+    const V end = hn::Max(zero, hn::NegMulAdd(high, high, view.q));
+    V startPower = set(1.0);
+    V endPower = startPower;
+    result.integral = hn::Sub(high, low);
+    result.lower = result.integral;
+    // (2k + 1) I_k = [y (q - y^2)^k] + 2 k q I_(k-1): all terms of one sign about y = 0.
+    for (int k = 1; k <= exponent; ++k)
+    {
+      result.lower = result.integral;
+      startPower = hn::Mul(startPower, start);
+      endPower = hn::Mul(endPower, end);
+      const V edge = hn::MulSub(high, endPower, hn::Mul(low, startPower));
+      result.integral = hn::Mul(
+        hn::MulAdd(hn::Mul(set(2.0 * k), view.q), result.lower, edge), set(1.0 / (2 * k + 1)));
+    }
+    result.start = startPower;
+    result.end = endPower;
+    return true;
+  }
+
+  HWY_INLINE void add(const SegmentElement& element, V x, V y, V z, V& value) const
+  {
+    Result result;
+    if (this->integrate(SegmentView(element, x, y, z), result))
+    {
+      value = hn::Add(value, result.integral);
+    }
+  }
+
+  HWY_INLINE void addWithGradient(
+    const SegmentElement& element, V x, V y, V z, V& value, V& gx, V& gy, V& gz) const
+  {
+    const SegmentView view(element, x, y, z);
+    Result result;
+    if (this->integrate(view, result))
+    {
+      value = hn::Add(value, result.integral);
+      addSegmentGradient(element, view,
+        { hn::Mul(set(exponent), result.lower), hn::Neg(result.start), result.end }, gx, gy, gz);
+    }
+  }
+};
+
+// Integral of (q - |y|^2)^n over the part of a triangle inside the disc |y|^2 < q.
+//
+// In polar coordinates about the origin the inner integral is [q^(n+1) - (q - rho^2)^(n+1)] /
+// (2 (n + 1)), rho the way to the edge, or q^(n+1) / (2 (n + 1)) where the disc ends before. On an
+// edge at signed distance delta, l along it, X = delta^2 + l^2, dtheta = delta dl / X, and
+// [q^(n+1) - (q - X)^(n+1)] / X = sum of q^k (q - X)^(n-k): so within the disc a polynomial in l,
+// without any angle, and good at delta = 0; outside, the angle that the rest of the edge covers.
+template <int Exponent>
+struct CompactTriangleIntegral
+{
+  int exponent;
+
+  explicit CompactTriangleIntegral(const ConvolutionKernel& kernel)
+    : exponent(Exponent == 0 ? kernel.exponent : Exponent)
+  {
+  }
+
+  struct Edge
+  {
+    V ex, ey;     // unit, along the edge
+    V distance;   // of the origin, positive inside
+    V start, end; // coordinates of the ends along the edge, from the foot of the origin
+    V inverseLength;
+    V low, high; // the part within the disc; equal where there is none
+  };
+
+  struct Result
+  {
+    V integral;
+    V lower; // with exponent n - 1
+  };
+
+  // Integrals over the part of an edge within the disc.
+  struct EdgeSums
+  {
+    V sum;      // of q^k I_(n-k), I_j the integral of (q - delta^2 - l^2)^j
+    V lowerSum; // with n - 1
+    V zeroth;   // I_n
+    V first;    // integral of l (q - delta^2 - l^2)^n
+  };
+
+  static HWY_INLINE Edge makeEdge(const TriangleView& view, std::size_t a, std::size_t b, V root)
+  {
+    Edge edge;
+    const V dx = hn::Sub(view.u[b], view.u[a]);
+    const V dy = hn::Sub(view.v[b], view.v[a]);
+    const V squared = hn::Max(hn::MulAdd(dx, dx, hn::Mul(dy, dy)), set(kSmallestSquare));
+    edge.inverseLength = hn::Div(set(1.0), hn::Sqrt(squared));
+    edge.ex = hn::Mul(dx, edge.inverseLength);
+    edge.ey = hn::Mul(dy, edge.inverseLength);
+    edge.distance = hn::MulSub(edge.ey, view.u[a], hn::Mul(edge.ex, view.v[a]));
+    edge.start = hn::MulAdd(edge.ex, view.u[a], hn::Mul(edge.ey, view.v[a]));
+    edge.end = hn::MulAdd(edge.ex, view.u[b], hn::Mul(edge.ey, view.v[b]));
+    const V half = hn::Sqrt(
+      hn::Max(hn::Zero(D()), hn::Mul(hn::Sub(root, edge.distance), hn::Add(root, edge.distance))));
+    edge.low = hn::Min(hn::Max(edge.start, hn::Neg(half)), half);
+    edge.high = hn::Min(hn::Max(edge.end, hn::Neg(half)), half);
+    return edge;
+  }
+
+  HWY_INLINE EdgeSums integrateEdge(const Edge& edge, V q) const
+  {
+    const V zero = hn::Zero(D());
+    const V rest = hn::NegMulAdd(edge.distance, edge.distance, q);
+    const V low = hn::Max(zero, hn::NegMulAdd(edge.low, edge.low, rest));
+    const V high = hn::Max(zero, hn::NegMulAdd(edge.high, edge.high, rest));
+    V lowPower = set(1.0);
+    V highPower = lowPower;
+    EdgeSums sums;
+    sums.zeroth = hn::Sub(edge.high, edge.low);
+    sums.sum = sums.zeroth;
+    sums.lowerSum = sums.sum;
+    for (int k = 1; k <= exponent; ++k)
+    {
+      lowPower = hn::Mul(lowPower, low);
+      highPower = hn::Mul(highPower, high);
+      const V ends = hn::MulSub(edge.high, highPower, hn::Mul(edge.low, lowPower));
+      sums.zeroth =
+        hn::Mul(hn::MulAdd(hn::Mul(set(2.0 * k), rest), sums.zeroth, ends), set(1.0 / (2 * k + 1)));
+      sums.lowerSum = sums.sum;
+      sums.sum = hn::MulAdd(q, sums.sum, sums.zeroth);
+    }
+    sums.first =
+      hn::Mul(hn::MulSub(lowPower, low, hn::Mul(highPower, high)), set(0.5 / (exponent + 1)));
+    return sums;
+  }
+
+  // The angle at the origin from `clipped` to `end`, both on the same side of the foot.
+  static HWY_INLINE V angle(const Edge& edge, V end, V clipped)
+  {
+    const V tiny = set(1e-300);
+    const V beside = hn::MulAdd(edge.distance, edge.distance, hn::MulAdd(end, clipped, tiny));
+    return hn::Atan(D(), hn::Div(hn::Mul(edge.distance, hn::Sub(end, clipped)), beside));
+  }
+
+  static HWY_INLINE V outerAngle(const Edge& edge)
+  {
+    const auto outside = hn::Or(hn::Ne(edge.start, edge.low), hn::Ne(edge.end, edge.high));
+    if (hn::AllFalse(D(), outside))
+    {
+      return hn::Zero(D());
+    }
+    return hn::Sub(angle(edge, edge.end, edge.high), angle(edge, edge.start, edge.low));
+  }
+
+  // \param slopes null, or derivatives by the corners to be written.
+  HWY_INLINE bool integrate(TriangleView& view, const TriangleElement& element, Result& result,
+    TriangleSlopes* slopes) const
+  {
+    const D d;
+    const V zero = hn::Zero(d);
+    if (hn::AllFalse(d, hn::Gt(view.q, zero)))
+    {
+      return false;
+    }
+    view.placeCorners(element);
+    const V q = hn::Max(zero, view.q);
+    const V root = hn::Sqrt(q);
+    const Edge edges[3] = { makeEdge(view, 0, 1, root), makeEdge(view, 1, 2, root),
+      makeEdge(view, 2, 0, root) };
+    // Within the disc: the whole triangle around its center, or a part of an edge.
+    const V nearest = hn::Min(edges[0].distance, hn::Min(edges[1].distance, edges[2].distance));
+    auto reached = hn::Gt(nearest, zero);
+    for (const Edge& edge : edges)
+    {
+      reached = hn::Or(reached, hn::Lt(edge.low, edge.high));
+    }
+    reached = hn::And(reached, hn::Gt(q, zero));
+    if (hn::AllFalse(d, reached))
+    {
+      return false;
+    }
+    const V lowerPower = power<Exponent>(q, exponent);
+    const V fullPower = hn::Mul(lowerPower, q);
+    V sum = zero;
+    V lowerSum = zero;
+    if (slopes)
+    {
+      slopes->u = slopes->v = { zero, zero, zero };
+    }
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      const Edge& edge = edges[k];
+      const EdgeSums sums = this->integrateEdge(edge, q);
+      const V outer = outerAngle(edge);
+      sum = hn::Add(sum, hn::MulAdd(edge.distance, sums.sum, hn::Mul(fullPower, outer)));
+      if (!slopes)
+      {
+        continue;
+      }
+      lowerSum =
+        hn::Add(lowerSum, hn::MulAdd(edge.distance, sums.lowerSum, hn::Mul(lowerPower, outer)));
+      // A corner that moves takes the points of its edges along, in proportion.
+      const std::size_t next = (k + 1) % 3;
+      const V atEnd = hn::IfThenElseZero(
+        reached, hn::Mul(hn::NegMulAdd(edge.start, sums.zeroth, sums.first), edge.inverseLength));
+      const V atStart = hn::Sub(hn::IfThenElseZero(reached, sums.zeroth), atEnd);
+      slopes->u[k] = hn::MulAdd(edge.ey, atStart, slopes->u[k]);
+      slopes->v[k] = hn::NegMulAdd(edge.ex, atStart, slopes->v[k]);
+      slopes->u[next] = hn::MulAdd(edge.ey, atEnd, slopes->u[next]);
+      slopes->v[next] = hn::NegMulAdd(edge.ex, atEnd, slopes->v[next]);
+    }
+    result.integral =
+      hn::IfThenElseZero(reached, hn::Max(zero, hn::Mul(sum, set(0.5 / (exponent + 1)))));
+    if (slopes)
+    {
+      result.lower =
+        hn::IfThenElseZero(reached, hn::Max(zero, hn::Mul(lowerSum, set(0.5 / exponent))));
+    }
+    return true;
+  }
+
+  HWY_INLINE void add(const TriangleElement& element, V x, V y, V z, V& value) const
+  {
+    TriangleView view(element, x, y, z);
+    Result result;
+    if (this->integrate(view, element, result, nullptr))
+    {
+      value = hn::Add(value, result.integral);
+    }
+  }
+
+  HWY_INLINE void addWithGradient(
+    const TriangleElement& element, V x, V y, V z, V& value, V& gx, V& gy, V& gz) const
+  {
+    TriangleView view(element, x, y, z);
+    Result result;
+    TriangleSlopes slopes;
+    if (this->integrate(view, element, result, &slopes))
+    {
+      value = hn::Add(value, result.integral);
+      slopes.q = hn::Mul(set(exponent), result.lower);
+      addTriangleGradient(element, view, slopes, gx, gy, gz);
+    }
+  }
+};
+
+double amplitudeOf(const ConvolutionKernel& kernel, const SegmentElement*)
+{
+  return segmentAmplitude(kernel);
+}
+
+double amplitudeOf(const ConvolutionKernel& kernel, const TriangleElement*)
+{
+  return triangleAmplitude(kernel);
+}
+
+// Calls with the exponent as a constant where it is a common one.
+template <class Element, template <int> class Integral>
+struct CompactSums
+{
+  static void add(
+    ElementSpan<Element> span, const ConvolutionKernel& kernel, PointBatch points, double* sum)
+  {
+    const double amplitude = amplitudeOf(kernel, static_cast<const Element*>(nullptr));
+    switch (kernel.exponent)
+    {
+      case 2:
+        addElements<Integral<2>>(span, kernel, amplitude, points, sum);
+        break;
+      case 3:
+        addElements<Integral<3>>(span, kernel, amplitude, points, sum);
+        break;
+      default:
+        addElements<Integral<0>>(span, kernel, amplitude, points, sum);
+    }
+  }
+  static void addWithGradient(ElementSpan<Element> span, const ConvolutionKernel& kernel,
+    PointBatch points, double* sum, VectorBatch gradient)
+  {
+    const double amplitude = amplitudeOf(kernel, static_cast<const Element*>(nullptr));
+    switch (kernel.exponent)
+    {
+      case 2:
+        addElementsWithGradient<Integral<2>>(span, kernel, amplitude, points, sum, gradient);
+        break;
+      case 3:
+        addElementsWithGradient<Integral<3>>(span, kernel, amplitude, points, sum, gradient);
+        break;
+      default:
+        addElementsWithGradient<Integral<0>>(span, kernel, amplitude, points, sum, gradient);
+    }
+  }
+};
+
+const ConvolutionKernels* compactKernels()
+{
+  using Segments = CompactSums<SegmentElement, CompactSegmentIntegral>;
+  using Triangles = CompactSums<TriangleElement, CompactTriangleIntegral>;
+  static const ConvolutionKernels kernels = { &Segments::add, &Segments::addWithGradient,
+    &Triangles::add, &Triangles::addWithGradient };
+  return &kernels;
+}
+
+} // namespace HWY_NAMESPACE
+} // namespace hybridtree
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace hybridtree
+{
+
+HWY_EXPORT(compactKernels);
+
+const ConvolutionKernels& convolutionKernels(KernelKind)
+{
+  static const ConvolutionKernels* const kernels = HWY_DYNAMIC_DISPATCH(compactKernels)();
+  return *kernels;
+}
+
+} // namespace hybridtree
+#endif

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "core/convolution/ConvolutionKernels.h"
+#include "core/convolution/ElementTree.h"
+
+#include <vector>
+
+namespace hybridtree
+{
+
+/// Elements that may reach some place.
+struct ElementSelection
+{
+  std::vector<const SegmentElement*> segments;
+  std::vector<const TriangleElement*> triangles;
+
+  bool empty() const { return segments.empty() && triangles.empty(); }
+  ElementSpan<SegmentElement> segmentSpan() const { return { segments.data(), segments.size() }; }
+  ElementSpan<TriangleElement> triangleSpan() const
+  {
+    return { triangles.data(), triangles.size() };
+  }
+};
+
+/// The sum of the fields of segments and triangles ([SUB] 3), in closed form, with a hierarchy over
+/// the elements. Immutable: any number of threads may ask one object.
+///
+/// Queries take the elements to sum: those that select() found for a box that holds the points.
+class ConvolutionField
+{
+public:
+  ConvolutionField(const ConvolutionKernel& kernel, const std::vector<SegmentElement>& segments,
+    const std::vector<TriangleElement>& triangles);
+
+  const ConvolutionKernel& kernel() const { return kernel_; }
+
+  /// Closure of where the field is not 0.
+  Box3 influenceBounds() const;
+
+  /// The elements that reach the box: all of them, and few others. Overwrites `selection`.
+  void select(const Box3& box, ElementSelection& selection) const;
+  /// Those of `from` that do.
+  void select(const Box3& box, const ElementSelection& from, ElementSelection& selection) const;
+
+  ///@{
+  /// Places of selected elements in the arrays that the constructor was given.
+  std::size_t index(const SegmentElement* segment) const;
+  std::size_t index(const TriangleElement* triangle) const;
+  ///@}
+
+  void addField(const ElementSelection& selection, PointBatch points, double* sum) const;
+  void addFieldAndGradient(const ElementSelection& selection, PointBatch points, double* sum,
+    VectorBatch gradientSum) const;
+
+  ///@{
+  /// The same with all elements, for points that may be anywhere.
+  void addField(PointBatch points, double* sum) const;
+  void addFieldAndGradient(PointBatch points, double* sum, VectorBatch gradientSum) const;
+  ///@}
+
+  /// Bounds of the field in a box. \pre the selection is that of the box or of a larger one.
+  Interval range(const ElementSelection& selection, const Box3& box) const;
+
+private:
+  ConvolutionKernel kernel_;
+  std::vector<SegmentElement> segments_; ///< in the order of their tree
+  std::vector<TriangleElement> triangles_;
+  ElementTree segmentTree_;
+  ElementTree triangleTree_;
+};
+
+} // namespace hybridtree

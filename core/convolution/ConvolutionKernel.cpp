@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/convolution/ConvolutionKernel.h"
+
+#include "core/base/Error.h"
+#include "core/base/Types.h"
+
+#include <cmath>
+
+namespace hybridtree
+{
+namespace
+{
+
+const double kPi = std::acos(-1.0);
+
+// r^2 / R^2.
+double squaredRadius(const ConvolutionKernel& kernel)
+{
+  return 1.0 / (kernel.influenceRatio * kernel.influenceRatio);
+}
+
+} // namespace
+
+void validate(const ConvolutionKernel& kernel)
+{
+  if (kernel.exponent < 2 || kernel.exponent > kMaxKernelExponent)
+  {
+    throw InvalidParameter("Exponent", kernel.exponent, "from 2 to 8");
+  }
+  if (!(kernel.influenceRatio >= 1.05 && kernel.influenceRatio <= 100.0))
+  {
+    throw InvalidParameter("InfluenceRatio", kernel.influenceRatio,
+      "from 1.05 to 100: how many radii the field reaches; nearer to 1 the field is too steep");
+  }
+}
+
+double bellIntegral(int exponent)
+{
+  double integral = 2.0;
+  for (int k = 1; k <= exponent; ++k)
+  {
+    integral *= 2.0 * k / (2.0 * k + 1.0);
+  }
+  return integral;
+}
+
+double segmentAmplitude(const ConvolutionKernel& kernel)
+{
+  if (kernel.kind == KernelKind::Cauchy)
+  {
+    return kThreshold * 4.0 * std::pow(1.0 + 4.0 * squaredRadius(kernel), 1.5) / kPi;
+  }
+  const double c = 1.0 - squaredRadius(kernel);
+  return kThreshold / (std::pow(c, kernel.exponent + 0.5) * bellIntegral(kernel.exponent));
+}
+
+double triangleAmplitude(const ConvolutionKernel& kernel)
+{
+  if (kernel.kind == KernelKind::Cauchy)
+  {
+    return kThreshold * 4.0 * (1.0 + 4.0 * squaredRadius(kernel)) / kPi;
+  }
+  const double c = 1.0 - squaredRadius(kernel);
+  return kThreshold * (kernel.exponent + 1) / (kPi * std::pow(c, kernel.exponent + 1));
+}
+
+} // namespace hybridtree

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "core/convolution/ConvolutionElement.h"
+#include "core/convolution/ConvolutionKernel.h"
+
+#include <cstddef>
+
+namespace hybridtree
+{
+
+/// Elements by pointers: those that reach a place, wherever they are stored.
+template <class Element>
+struct ElementSpan
+{
+  const Element* const* elements = nullptr;
+  std::size_t count = 0;
+};
+
+/// Batched sums of closed-form integrals over elements. A value depends on its point alone, not on
+/// its place in the batch; it is exactly 0 beyond the reach of a compact kernel. Gradients are
+/// exact.
+struct ConvolutionKernels
+{
+  void (*addSegments)(
+    ElementSpan<SegmentElement>, const ConvolutionKernel&, PointBatch, double* sum);
+  void (*addSegmentsWithGradient)(ElementSpan<SegmentElement>, const ConvolutionKernel&, PointBatch,
+    double* sum, VectorBatch gradientSum);
+  void (*addTriangles)(
+    ElementSpan<TriangleElement>, const ConvolutionKernel&, PointBatch, double* sum);
+  void (*addTrianglesWithGradient)(ElementSpan<TriangleElement>, const ConvolutionKernel&,
+    PointBatch, double* sum, VectorBatch gradientSum);
+};
+
+/// Those of the kernel for the widest vector instructions of this processor.
+const ConvolutionKernels& convolutionKernels(KernelKind kind);
+
+} // namespace hybridtree

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "core/convolution/ConvolutionElement.h"
+#include "core/convolution/ConvolutionKernel.h"
+
+namespace hybridtree
+{
+
+///@{
+/// Largest R, and distance of a point from the element.
+double largestReach(const SegmentElement& element);
+double largestReach(const TriangleElement& element);
+double distanceTo(const SegmentElement& element, const Vec3& p);
+double distanceTo(const TriangleElement& element, const Vec3& p);
+Box3 boundsOf(const SegmentElement& element);
+Box3 boundsOf(const TriangleElement& element);
+///@}
+
+/// How large the field of elements and its derivatives may be: sums of upper bounds.
+struct FieldBounds
+{
+  double value = 0.0;     ///< of the field, which is nowhere negative
+  double slope = 0.0;     ///< of the length of its gradient
+  double curvature = 0.0; ///< of the norm of its second derivative; infinite where there is none
+};
+
+///@{
+/// Adds the bounds of one element at all points at least `distance` away from it. Compact kernels.
+void addBounds(const SegmentElement& element, const ConvolutionKernel& kernel, double distance,
+  FieldBounds& bounds);
+void addBounds(const TriangleElement& element, const ConvolutionKernel& kernel, double distance,
+  FieldBounds& bounds);
+///@}
+
+} // namespace hybridtree
