@@ -45,8 +45,8 @@ struct CompactSegmentIntegral
       return false;
     }
     high = hn::IfThenElse(reached, high, low);
-    const V start = hn::Max(zero, hn::NegMulAdd(low, low, view.q));
-    const V end = hn::Max(zero, hn::NegMulAdd(high, high, view.q));
+    const V start = hn::IfThenElseZero(reached, hn::Max(zero, hn::NegMulAdd(low, low, view.q)));
+    const V end = hn::IfThenElseZero(reached, hn::Max(zero, hn::NegMulAdd(high, high, view.q)));
     V startPower = set(1.0);
     V endPower = startPower;
     result.integral = hn::Sub(high, low);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/convolution/ConvolutionField.h"
 
-#include "core/base/Scratch.h"
 #include "core/convolution/ElementBounds.h"
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace hybridtree
 {
@@ -64,13 +64,6 @@ Box3 boundsOf(PointBatch points)
     box.extend(points[k]);
   }
   return box;
-}
-
-// Reused by all queries of a thread: no allocation once warm.
-ElementSelection& scratchSelection()
-{
-  static thread_local ElementSelection selection;
-  return selection;
 }
 
 } // namespace
@@ -138,43 +131,46 @@ std::size_t ConvolutionField::index(const TriangleElement* triangle) const
   return triangleTree_.order()[static_cast<std::size_t>(triangle - triangles_.data())];
 }
 
+template <typename Body>
+void ConvolutionField::forParts(PointBatch points, Body&& body) const
+{
+  static thread_local ElementSelection selection; // no allocation once warm
+  for (std::size_t begin = 0; begin < points.size; begin += kPart)
+  {
+    const PointBatch part = points.slice(begin, std::min(kPart, points.size - begin));
+    this->select(boundsOf(part), selection);
+    body(selection, part, begin);
+  }
+}
+
 void ConvolutionField::addField(
-  const ElementSelection& selection, PointBatch points, double* sum) const
+  const ElementSelection* selection, PointBatch points, double* sum) const
 {
-  const ConvolutionKernels& kernels = convolutionKernels(kernel_.kind);
-  kernels.addSegments(selection.segmentSpan(), kernel_, points, sum);
-  kernels.addTriangles(selection.triangleSpan(), kernel_, points, sum);
+  if (selection)
+  {
+    const ConvolutionKernels& kernels = convolutionKernels(kernel_.kind);
+    kernels.addSegments(selection->segmentSpan(), kernel_, points, sum);
+    kernels.addTriangles(selection->triangleSpan(), kernel_, points, sum);
+    return;
+  }
+  this->forParts(points,
+    [&](const ElementSelection& reaching, PointBatch part, std::size_t begin)
+    { this->addField(&reaching, part, sum + begin); });
 }
 
 void ConvolutionField::addFieldAndGradient(
-  const ElementSelection& selection, PointBatch points, double* sum, VectorBatch gradientSum) const
+  const ElementSelection* selection, PointBatch points, double* sum, VectorBatch gradientSum) const
 {
-  const ConvolutionKernels& kernels = convolutionKernels(kernel_.kind);
-  kernels.addSegmentsWithGradient(selection.segmentSpan(), kernel_, points, sum, gradientSum);
-  kernels.addTrianglesWithGradient(selection.triangleSpan(), kernel_, points, sum, gradientSum);
-}
-
-void ConvolutionField::addField(PointBatch points, double* sum) const
-{
-  ElementSelection& selection = scratchSelection();
-  for (std::size_t begin = 0; begin < points.size; begin += kPart)
+  if (selection)
   {
-    const PointBatch part = points.slice(begin, std::min(kPart, points.size - begin));
-    this->select(boundsOf(part), selection);
-    this->addField(selection, part, sum + begin);
+    const ConvolutionKernels& kernels = convolutionKernels(kernel_.kind);
+    kernels.addSegmentsWithGradient(selection->segmentSpan(), kernel_, points, sum, gradientSum);
+    kernels.addTrianglesWithGradient(selection->triangleSpan(), kernel_, points, sum, gradientSum);
+    return;
   }
-}
-
-void ConvolutionField::addFieldAndGradient(
-  PointBatch points, double* sum, VectorBatch gradientSum) const
-{
-  ElementSelection& selection = scratchSelection();
-  for (std::size_t begin = 0; begin < points.size; begin += kPart)
-  {
-    const PointBatch part = points.slice(begin, std::min(kPart, points.size - begin));
-    this->select(boundsOf(part), selection);
-    this->addFieldAndGradient(selection, part, sum + begin, gradientSum.slice(begin));
-  }
+  this->forParts(points,
+    [&](const ElementSelection& reaching, PointBatch part, std::size_t begin)
+    { this->addFieldAndGradient(&reaching, part, sum + begin, gradientSum.slice(begin)); });
 }
 
 Interval ConvolutionField::range(const ElementSelection& selection, const Box3& box) const
@@ -196,7 +192,7 @@ Interval ConvolutionField::range(const ElementSelection& selection, const Box3& 
   Vec3 slope = Vec3::Zero();
   const Vec3& p = ball.center;
   this->addFieldAndGradient(
-    selection, { &p.x(), &p.y(), &p.z(), 1 }, &center, { &slope.x(), &slope.y(), &slope.z() });
+    &selection, { &p.x(), &p.y(), &p.z(), 1 }, &center, { &slope.x(), &slope.y(), &slope.z() });
   const double linear = 0.5 * slope.cwiseAbs().dot(box.sizes());
   const double most = std::min(
     bounds.slope * ball.radius, linear + 0.5 * bounds.curvature * ball.radius * ball.radius);

@@ -49,20 +49,20 @@ public:
   std::size_t index(const TriangleElement* triangle) const;
   ///@}
 
-  void addField(const ElementSelection& selection, PointBatch points, double* sum) const;
-  void addFieldAndGradient(const ElementSelection& selection, PointBatch points, double* sum,
-    VectorBatch gradientSum) const;
-
   ///@{
-  /// The same with all elements, for points that may be anywhere.
-  void addField(PointBatch points, double* sum) const;
-  void addFieldAndGradient(PointBatch points, double* sum, VectorBatch gradientSum) const;
+  /// \param selection null for all elements, when the points may be anywhere.
+  void addField(const ElementSelection* selection, PointBatch points, double* sum) const;
+  void addFieldAndGradient(const ElementSelection* selection, PointBatch points, double* sum,
+    VectorBatch gradientSum) const;
   ///@}
 
   /// Bounds of the field in a box. \pre the selection is that of the box or of a larger one.
   Interval range(const ElementSelection& selection, const Box3& box) const;
 
 private:
+  template <typename Body>
+  void forParts(PointBatch points, Body&& body) const;
+
   ConvolutionKernel kernel_;
   std::vector<SegmentElement> segments_; ///< in the order of their tree
   std::vector<TriangleElement> triangles_;

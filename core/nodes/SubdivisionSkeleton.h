@@ -101,8 +101,12 @@ private:
   class Restriction;
   struct Placement;
 
-  const Affine3* toOwnSpace() const;
   Box3 toOwnSpace(const Box3& box) const;
+  // With the elements of the selection, or all for null.
+  void addSelected(const ElementSelection* selection, PointBatch points, double* sum) const;
+  void addSelected(const ElementSelection* selection, PointBatch points, double* sum,
+    VectorBatch gradientSum) const;
+  Interval rangeOf(const ElementSelection& selection, const Box3& box) const;
   double sign() const { return this->isNegative() ? -1.0 : 1.0; }
 
   ShapePtr shape_;

@@ -9,6 +9,7 @@
 #include "core/nodes/LocalBlend.h"
 #include "core/nodes/MeshNode.h"
 #include "core/nodes/Primitive.h"
+#include "core/nodes/SubdivisionSkeleton.h"
 
 namespace hybridtree
 {
@@ -24,6 +25,7 @@ struct Kind
 // One line per kind of node.
 constexpr Kind kKinds[] = {
   { "primitive", primitiveFromParameters },
+  { "subdivisionSkeleton", subdivisionSkeletonFromParameters },
   { "mesh", meshFromParameters },
   { "blend", blendFromParameters },
   { "localBlend", localBlendFromParameters },

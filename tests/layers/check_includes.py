@@ -12,7 +12,7 @@ def core(*rooms, extra=()):
     return CORE_LIBRARIES + [rf"core/{room}/.*" for room in rooms] + list(extra)
 
 
-BELOW_NODES = ("base", "geometry", "mesh", "boolean", "skeletons", "polygonize", "stitch", "subdivision")
+BELOW_NODES = ("base", "geometry", "mesh", "boolean", "skeletons", "polygonize", "stitch", "subdivision", "convolution")
 SIMD = (r"hwy/.*", r"core/[a-z]+/[A-Za-z]+\.cpp")  # Highway compiles a source once per target
 # What VTK calls itself, without ParaView's own classes.
 VTK = [r"vtksys/.*", r"vtk(?!PV|SM|SI)[A-Za-z0-9]+\.h", r"HybridTree[A-Za-z]+Module\.h"]
@@ -25,7 +25,8 @@ ALLOWED = {
     "core/skeletons": core("base", "geometry", "mesh", "skeletons", extra=SIMD),
     "core/polygonize": core("base", "geometry", "mesh", "polygonize", extra=SIMD),
     "core/stitch": core("base", "geometry", "mesh", "polygonize", "stitch", extra=SIMD),
-    "core/subdivision": core("base", "geometry", "mesh", "polygonize", "stitch", "subdivision"),
+    "core/subdivision": core("base", "geometry", "mesh", "polygonize", "stitch", "subdivision", "convolution"),
+    "core/convolution": core("base", "geometry", "convolution", extra=SIMD),
     "core/nodes": core(*BELOW_NODES, "nodes", extra=SIMD),
     "core/tree": core(*BELOW_NODES, "nodes", "tree", extra=(r"nlohmann/.*",)),
     "filters": [STANDARD, r"core/.*", r"filters/.*", *VTK],

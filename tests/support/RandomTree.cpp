@@ -7,6 +7,7 @@
 #include "core/nodes/LocalBlend.h"
 #include "core/nodes/MeshNode.h"
 #include "core/nodes/Primitive.h"
+#include "core/nodes/SubdivisionSkeleton.h"
 #include "core/skeletons/Box.h"
 #include "core/skeletons/Circle.h"
 #include "core/skeletons/Cone.h"
@@ -149,10 +150,37 @@ private:
     {
       return this->meshLeaf(negative);
     }
+    if (random_.chance(0.15))
+    {
+      return this->subdivisionSkeleton(negative);
+    }
     const double radius = random_.uniform(0.15, 0.4);
     const Potential potential = Potential::bySurfaceRadius(
       radius, radius * random_.uniform(1.3, 2.5), random_.integer(2, 4), negative);
     return makePrimitive(this->skeleton(), potential);
+  }
+
+  // A triangle with a limb.
+  NodePtr subdivisionSkeleton(bool negative)
+  {
+    const Vec3 corner = this->place();
+    const Mat3 axes = random_.rotation();
+    SkeletonGraph graph;
+    graph.points = { corner, corner + random_.uniform(0.2, 0.7) * axes.col(0),
+      corner + random_.uniform(0.2, 0.7) * axes.col(1),
+      corner + random_.uniform(0.4, 0.8) * random_.direction() };
+    for (std::size_t k = 0; k < graph.points.size(); ++k)
+    {
+      graph.radii.push_back(random_.uniform(0.15, 0.3));
+    }
+    graph.segments = { { 0, 3 } };
+    graph.triangles = { { 0, 1, 2 } };
+    SubdivisionSkeletonOptions options;
+    options.level = random_.integer(0, 2);
+    options.kernel.exponent = random_.integer(2, 4);
+    options.kernel.influenceRatio = random_.uniform(1.5, 2.5);
+    options.negative = negative;
+    return makeSubdivisionSkeleton(graph, options);
   }
 
   NodePtr meshLeaf(bool negative)

@@ -8,6 +8,7 @@
 #include "core/nodes/LocalBlend.h"
 #include "core/nodes/MeshNode.h"
 #include "core/nodes/Primitive.h"
+#include "core/nodes/SubdivisionSkeleton.h"
 #include "core/skeletons/Box.h"
 #include "core/skeletons/Circle.h"
 #include "core/skeletons/Cone.h"
@@ -299,6 +300,51 @@ void addPlates(std::vector<NodeCase>& cases)
     std::make_shared<EllipsoidSkeleton>(Vec3(0.1, 0.0, -0.1), Vec3(0.5, 0.3, 0.2), turned));
 }
 
+// Three limbs of different thickness.
+SkeletonGraph branches()
+{
+  SkeletonGraph graph;
+  graph.points = { Vec3(-0.7, 0, 0), Vec3(-0.2, 0.1, 0.1), Vec3(0.2, 0, 0), Vec3(0.6, 0.4, -0.1),
+    Vec3(0.5, -0.5, 0.2) };
+  graph.radii = { 0.1, 0.15, 0.2, 0.08, 0.12 };
+  graph.segments = { { 0, 1 }, { 1, 2 }, { 2, 3 }, { 2, 4 } };
+  return graph;
+}
+
+// A bent sheet with a limb at one corner.
+SkeletonGraph sheet()
+{
+  SkeletonGraph graph;
+  graph.points = { Vec3(-0.5, -0.4, 0), Vec3(0.3, -0.5, 0.1), Vec3(-0.4, 0.4, 0.1),
+    Vec3(0.4, 0.3, -0.2), Vec3(0.9, 0.5, 0) };
+  graph.radii = { 0.15, 0.1, 0.12, 0.1, 0.1 };
+  graph.segments = { { 3, 4 } };
+  graph.triangles = { { 0, 1, 2 }, { 1, 3, 2 } };
+  return graph;
+}
+
+void addSkeletons(std::vector<NodeCase>& cases)
+{
+  SubdivisionSkeletonOptions options;
+  options.level = 2;
+  const NodePtr curves = makeSubdivisionSkeleton(branches(), options);
+  cases.push_back({ "SkeletonCurves", curves });
+  cases.push_back({ "ShearedSkeletonCurves", curves->affine(shear()) });
+  options.scheme = SubdivisionScheme::Interpolating;
+  options.kernel.exponent = 3;
+  options.kernel.influenceRatio = 1.6;
+  cases.push_back({ "SkeletonSheet", makeSubdivisionSkeleton(sheet(), options) });
+  options.radius = SkeletonRadius::Constant;
+  options.level = 0;
+  options.kernel.exponent = 5;
+  cases.push_back({ "SkeletonOfConstantRadii", makeSubdivisionSkeleton(sheet(), options) });
+  options.negative = true;
+  cases.push_back({ "SkeletonHole", makeSubdivisionSkeleton(branches(), options) });
+  cases.push_back({ "BlendWithSkeletons",
+    makeBlend({ curves, makeSubdivisionSkeleton(sheet()), ball(Vec3(-0.5, 0.3, 0)),
+      makeSubdivisionSkeleton(branches(), options)->affine(shear()) }) });
+}
+
 } // namespace
 
 std::vector<NodeCase> nodeCases()
@@ -320,6 +366,7 @@ std::vector<NodeCase> nodeCases()
   cases.push_back({ "Hole", hole(Vec3(0.1, 0.2, 0.3)) });
   addPlates(cases);
   addRound(cases);
+  addSkeletons(cases);
   addMeshes(cases);
   addBlends(cases);
   addBooleans(cases);
