@@ -60,8 +60,7 @@ private:
 class RingMesher
 {
 public:
-  RingMesher(const std::vector<Ring>& rings, bool closed, const RevolvedFrame& frame)
-    : rings_(rings), closed_(closed), frame_(frame), across_(frame.axis.cross(frame.side))
+  RingMesher(const std::vector<Ring>& rings, bool closed) : rings_(rings), closed_(closed)
   {
     std::size_t points = 0;
     std::size_t triangles = 0;
@@ -76,11 +75,12 @@ public:
     mesh_.triangles.reserve(triangles);
   }
 
-  TriangleMesh make()
+  template <class FrameOf>
+  TriangleMesh make(const FrameOf& frameOf)
   {
-    for (const Ring& ring : rings_)
+    for (std::size_t k = 0; k < rings_.size(); ++k)
     {
-      this->addPoints(ring);
+      this->addPoints(rings_[k], frameOf(k));
     }
     const std::size_t strips = closed_ ? rings_.size() : rings_.size() - 1;
     for (std::size_t k = 0; k < strips; ++k)
@@ -91,10 +91,11 @@ public:
   }
 
 private:
-  void addPoints(const Ring& ring)
+  void addPoints(const Ring& ring, const RevolvedFrame& frame)
   {
-    const Vec3 center = frame_.origin + ring.place.position.y() * frame_.axis;
-    const Vec3 up = ring.place.normal.y() * frame_.axis;
+    const Vec3 across = frame.axis.cross(frame.side);
+    const Vec3 center = frame.origin + ring.place.position.y() * frame.axis;
+    const Vec3 up = ring.place.normal.y() * frame.axis;
     if (ring.count == 1)
     {
       mesh_.points.push_back(center);
@@ -103,7 +104,7 @@ private:
     }
     for (const Vec2& turn : turns_.of(ring))
     {
-      const Vec3 outward = turn.x() * frame_.side + turn.y() * across_;
+      const Vec3 outward = turn.x() * frame.side + turn.y() * across;
       mesh_.points.push_back(center + ring.place.position.x() * outward);
       mesh_.normals.push_back(up + ring.place.normal.x() * outward);
     }
@@ -184,8 +185,6 @@ private:
 
   const std::vector<Ring>& rings_;
   bool closed_;
-  const RevolvedFrame& frame_;
-  Vec3 across_;
   std::vector<int> first_;
   Turns turns_;
   TriangleMesh mesh_;
@@ -195,7 +194,29 @@ private:
 
 TriangleMesh meshRings(const std::vector<Ring>& rings, bool closed, const RevolvedFrame& frame)
 {
-  return RingMesher(rings, closed, frame).make();
+  return RingMesher(rings, closed).make([&](std::size_t) -> const auto& { return frame; });
+}
+
+TriangleMesh meshRings(
+  const std::vector<Ring>& rings, bool closed, const std::vector<RevolvedFrame>& frames)
+{
+  return RingMesher(rings, closed).make([&](std::size_t k) -> const auto& { return frames[k]; });
+}
+
+double longestEdge(const TriangleMesh& mesh, const std::vector<Ring>& rings)
+{
+  double around = 0.0;
+  for (const Ring& ring : rings)
+  {
+    around = std::max(
+      around, ring.count > 1 ? 2.0 * ring.place.position.x() * std::sin(kPi / ring.count) : 0.0);
+  }
+  double squared = 0.0;
+  for (const Triangle& t : mesh.triangles)
+  {
+    squared = std::max(squared, (mesh.points[t[0]] - mesh.points[t[2]]).squaredNorm());
+  }
+  return std::max(around, std::sqrt(squared));
 }
 
 double longestAcross(const Ring& a, const Ring& b)

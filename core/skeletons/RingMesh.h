@@ -29,7 +29,15 @@ struct Ring
 /// be there.
 TriangleMesh meshRings(const std::vector<Ring>& rings, bool closed, const RevolvedFrame& frame);
 
-/// Largest distance of two joined points of neighbouring rings.
+/// The same with a frame for each ring, in which its place is meant.
+TriangleMesh meshRings(
+  const std::vector<Ring>& rings, bool closed, const std::vector<RevolvedFrame>& frames);
+
+/// Longest edge of a mesh from meshRings(). Each triangle leads from one ring to the other between
+/// its first point and its last, and each edge between rings is that of one.
+double longestEdge(const TriangleMesh& mesh, const std::vector<Ring>& rings);
+
+/// Largest distance of two joined points of neighbouring rings around one axis.
 double longestAcross(const Ring& a, const Ring& b);
 
 } // namespace hybridtree

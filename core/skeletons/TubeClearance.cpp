@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/skeletons/TubeClearance.h"
 
+#include "core/geometry/IntervalMath.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -63,6 +65,26 @@ double segmentDistance(const Piece& p, const Piece& q)
   return std::sqrt(squared);
 }
 
+// Bernstein coefficients of the product of c' and c'', of the edges of the control polygon:
+// c' = 3 sum e_k B_k, c'' = 6 ((e1 - e0)(1 - t) + (e2 - e1) t).
+template <class Multiply>
+auto slopeTimesBend(const std::array<Vec3, 3>& edge, const Multiply& multiply)
+{
+  const Vec3 b0 = edge[1] - edge[0];
+  const Vec3 b1 = edge[2] - edge[1];
+  return std::array<decltype(multiply(b0, b1)), 4>{ 18.0 * multiply(edge[0], b0),
+    6.0 * multiply(edge[0], b1) + 12.0 * multiply(edge[1], b0),
+    12.0 * multiply(edge[1], b1) + 6.0 * multiply(edge[2], b0), 18.0 * multiply(edge[2], b1) };
+}
+
+// Of a polynomial, by its Bernstein coefficients.
+template <std::size_t Count>
+Interval range(const std::array<double, Count>& coefficients)
+{
+  const auto [least, most] = std::minmax_element(coefficients.begin(), coefficients.end());
+  return { *least, *most };
+}
+
 class Clearance
 {
 public:
@@ -78,7 +100,7 @@ public:
     longest_ = length / 1000.0;
     for (std::size_t k = 0; k < spans.size(); ++k)
     {
-      if (!this->addSpan(spans[k]) || ((k > 0 || closed_) && !this->smooth(spans, k)))
+      if (!this->addPart(spans[k], 0) || ((k > 0 || closed_) && !this->smooth(spans, k)))
       {
         return false;
       }
@@ -94,38 +116,6 @@ private:
     const ThickPoint after = spans[k].slope(0.0);
     return angle(before.at, after.at) < kCorner &&
       std::abs(before.radius / before.at.norm() - after.radius / after.at.norm()) < kCorner;
-  }
-
-  bool addSpan(const CubicSpan& span)
-  {
-    for (int k = 0; span.thick() && k <= 32; ++k)
-    {
-      if (!this->envelopeIsRegular(span, k / 32.0))
-      {
-        return false;
-      }
-    }
-    return this->addPart(span, 0);
-  }
-
-  // The circle in which the ball at t touches the envelope moves forward all around.
-  bool envelopeIsRegular(const CubicSpan& span, double t)
-  {
-    const ThickPoint first = span.slope(t);
-    const ThickPoint second = span.bend(t);
-    const double speed = first.at.norm();
-    if (!(speed > 0.0))
-    {
-      return false;
-    }
-    const double r = radius_ + span.at(t).radius;
-    const double curvature = first.at.cross(second.at).norm() / (speed * speed * speed);
-    const double slope = first.radius / speed;
-    lean_ = std::max(lean_, std::asin(std::min(1.0, std::abs(slope))));
-    const double change =
-      (second.radius - slope * first.at.dot(second.at) / speed) / (speed * speed);
-    return std::abs(slope) < 0.98 &&
-      1.0 - slope * slope - r * change - curvature * r * std::sqrt(1.0 - slope * slope) > 0.02;
   }
 
   bool addPart(const CubicSpan& part, int depth)
@@ -144,7 +134,7 @@ private:
     const Vec3 chord = part.control[3].at - part.control[0].at;
     const double length = chord.norm();
     const bool fine = turn < kLargestTurn && length <= std::max(0.4 * radius, longest_) &&
-      curvatureBound(edge, chord / length) * radius < 1.0;
+      this->envelopeIsRegular(part, edge, chord / length);
     if (!fine) // NaN, too
     {
       return depth < kMostHalvings && pieces_.size() < kMostPieces &&
@@ -159,19 +149,49 @@ private:
     return true;
   }
 
-  // Not below |c' x c''| / |c'|^3 over the part.
-  static double curvatureBound(const std::array<Vec3, 3>& edge, const Vec3& along)
+  // The circle in which the ball at t touches the envelope moves forward all around:
+  // 1 - s'^2 - r s'' - k r sqrt(1 - s'^2) > 0 of the curvature k and the derivatives of the radius
+  // by the length of the curve. By bounds over the part; NaN gives false.
+  bool envelopeIsRegular(const CubicSpan& part, const std::array<Vec3, 3>& edge, const Vec3& along)
   {
-    // c' = 3 sum e_k B_k; c'' = 6 ((e1 - e0)(1 - t) + (e2 - e1) t).
-    const Vec3 b0 = edge[1] - edge[0];
-    const Vec3 b1 = edge[2] - edge[1];
-    const double cross = 18.0 *
-      std::max(
-        { edge[0].cross(b0).norm(), (edge[0].cross(b1) + 2.0 * edge[1].cross(b0)).norm() / 3.0,
-          (2.0 * edge[1].cross(b1) + edge[2].cross(b0)).norm() / 3.0, edge[2].cross(b1).norm() });
-    const double speed =
-      3.0 * std::min({ edge[0].dot(along), edge[1].dot(along), edge[2].dot(along) });
-    return speed > 0.0 ? cross / (speed * speed * speed) : std::nan("");
+    using Four = std::array<double, 4>;
+    const Interval forward =
+      range(std::array<double, 3>{ edge[0].dot(along), edge[1].dot(along), edge[2].dot(along) });
+    if (!(forward.min > 0.0))
+    {
+      return false;
+    }
+    const double longest = std::max({ edge[0].norm(), edge[1].norm(), edge[2].norm() });
+    const Interval perSpeed{ 1.0 / (3.0 * longest), 1.0 / (3.0 * forward.min) };
+    const auto cross = [](const Vec3& u, const Vec3& v) { return Vec3(u.cross(v)); };
+    double curvature = 0.0;
+    for (const Vec3& coefficient : slopeTimesBend(edge, cross))
+    {
+      curvature = std::max(curvature, coefficient.norm() * std::pow(perSpeed.max, 3));
+    }
+    const auto [r0, r1, r2, r3] = part.control;
+    const Interval radius = range(
+      Four{ radius_ + r0.radius, radius_ + r1.radius, radius_ + r2.radius, radius_ + r3.radius });
+    if (!part.thick())
+    {
+      return curvature * radius.max < 1.0;
+    }
+    const std::array<double, 3> rise = { r1.radius - r0.radius, r2.radius - r1.radius,
+      r3.radius - r2.radius };
+    const Interval slope = perSpeed * (3.0 * range(rise));
+    const Interval bend =
+      6.0 * range(std::array<double, 2>{ rise[1] - rise[0], rise[2] - rise[1] });
+    const auto dot = [](const Vec3& u, const Vec3& v) { return u.dot(v); };
+    const Interval speedUp = perSpeed * range(slopeTimesBend(edge, dot));
+    const Interval change = perSpeed * perSpeed * (bend - slope * speedUp);
+    const double steepest = std::max(-slope.min, slope.max);
+    const double flattest = std::max({ 0.0, slope.min, -slope.max });
+    const bool regular = steepest < 0.98 &&
+      1.0 - steepest * steepest - (radius * change).max -
+          curvature * radius.max * std::sqrt(1.0 - flattest * flattest) >
+        0.02;
+    lean_ = regular ? std::max(lean_, std::asin(steepest)) : lean_;
+    return regular;
   }
 
   bool partsAreApart() const
