@@ -12,6 +12,7 @@
 //
 //   LocalBlendBenchmark [threads, default 2] [rounds, default 5]
 //   LocalBlendBenchmark pairs FILE
+//   LocalBlendBenchmark edits [threads] [rounds]     the edits alone, for a profiler
 #include "benchmarks/support/BenchmarkMesh.h"
 #include "benchmarks/support/EmbreeDistance.h"
 #include "core/base/Parallel.h"
@@ -146,6 +147,50 @@ double denseGrid(const TriangleMesh& mesh, int threads, double reach, int stride
   return time * kGrid / layers;
 }
 
+/// The last ball is dragged along the surface.
+std::vector<double> timesOfEdits(const NodePtr& scan, const TriangleMesh& mesh, double edge)
+{
+  const std::vector<NodePtr> parts = additions(mesh);
+  std::vector<double> times;
+  for (int k = 0; k < 50; ++k)
+  {
+    std::vector<NodePtr> edited = parts;
+    edited.back() = additions(mesh, 0.0005 * k).back();
+    const NodePtr node = chain(scan, edited, BlendMethod::PrimitiveBased);
+    times.push_back(seconds([&] { node->mesh(edge); }));
+  }
+  return times;
+}
+
+void reportEdits(
+  const NodePtr& scan, const TriangleMesh& mesh, double edge, double first, double global)
+{
+  const std::vector<double> times = timesOfEdits(scan, mesh, edge);
+  const double middle = median(times);
+  const double slowest = *std::max_element(times.begin(), times.end());
+  std::printf(
+    "first polygonization, cold: %.1f ms; global, warm: %.1f ms\n", 1e3 * first, 1e3 * global);
+  std::printf("50 edits: median %.1f ms, slowest %.1f ms: 1/%.0f and 1/%.0f of the first, "
+              "1/%.0f and 1/%.0f of a global one\n",
+    1e3 * middle, 1e3 * slowest, first / middle, first / slowest, global / middle,
+    global / slowest);
+}
+
+/// For a profiler: edits alone, over and over.
+void editsOnly(int threads, int rounds)
+{
+  setThreadCount(threads);
+  const MeshPtr mesh = benchmark::benchmarkMesh("igea.ply", 268000);
+  const double edge = 1.0 / (kGrid - 1);
+  const NodePtr scan = scanLeaf(mesh);
+  for (int round = 0; round < rounds; ++round)
+  {
+    const std::vector<double> times = timesOfEdits(scan, *mesh, edge);
+    std::printf("median %.1f ms, slowest %.1f ms\n", 1e3 * median(times),
+      1e3 * *std::max_element(times.begin(), times.end()));
+  }
+}
+
 void table3(int threads, int rounds)
 {
   setThreadCount(threads);
@@ -193,21 +238,7 @@ void table3(int threads, int rounds)
   }
   const double local = median(times[2]);
 
-  std::vector<double> edits;
-  for (int k = 0; k < 50; ++k)
-  {
-    std::vector<NodePtr> edited = parts;
-    edited.back() = additions(*mesh, 0.0005 * k).back();
-    const NodePtr node = chain(scan, edited, BlendMethod::PrimitiveBased);
-    edits.push_back(seconds([&] { node->mesh(edge); }));
-  }
-  std::printf(
-    "first polygonization, cold: %.1f ms; global, warm: %.1f ms\n", 1e3 * first, 1e3 * global);
-  std::printf("50 edits: median %.1f ms, slowest %.1f ms: 1/%.0f and 1/%.0f of the first, "
-              "1/%.0f and 1/%.0f of a global one\n",
-    1e3 * median(edits), 1e3 * *std::max_element(edits.begin(), edits.end()), first / median(edits),
-    first / *std::max_element(edits.begin(), edits.end()), global / median(edits),
-    global / *std::max_element(edits.begin(), edits.end()));
+  reportEdits(scan, *mesh, edge, first, global);
 
   const double bounded = denseGrid(*mesh, threads, kInfluence, 4);
   std::printf("dense %d^3 grid by Embree within R: %.1f s, %.0f times the primitive-based mesh\n",
@@ -267,6 +298,11 @@ int main(int argc, char** argv)
   if (argc > 2 && std::string(argv[1]) == "pairs")
   {
     pairs(argv[2]);
+    return 0;
+  }
+  if (argc > 1 && std::string(argv[1]) == "edits")
+  {
+    editsOnly(argc > 2 ? std::max(1, std::atoi(argv[2])) : 2, argc > 3 ? std::atoi(argv[3]) : 1);
     return 0;
   }
   table3(argc > 1 ? std::max(1, std::atoi(argv[1])) : 2, argc > 2 ? std::atoi(argv[2]) : 5);

@@ -1,44 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/mesh/MeshChecks.h"
 
+#include "core/base/DisjointSets.h"
+
 #include <algorithm>
-#include <numeric>
 #include <sstream>
 
 namespace hybridtree
 {
 namespace
 {
-
-/// Disjoint sets over 0 .. size - 1; the smallest member stands for its set.
-class DisjointSets
-{
-public:
-  explicit DisjointSets(std::size_t size) : parent_(size)
-  {
-    std::iota(parent_.begin(), parent_.end(), std::uint32_t(0));
-  }
-
-  std::uint32_t find(std::uint32_t member)
-  {
-    while (parent_[member] != member)
-    {
-      parent_[member] = parent_[parent_[member]];
-      member = parent_[member];
-    }
-    return member;
-  }
-
-  void join(std::uint32_t a, std::uint32_t b)
-  {
-    a = this->find(a);
-    b = this->find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
-private:
-  std::vector<std::uint32_t> parent_;
-};
 
 /// One side of a triangle: the side that starts at `corner` (3 * triangle + local index), seen from
 /// its end point with the smaller index.

@@ -3,13 +3,13 @@
 
 #include "core/geometry/BoxUnion.h"
 #include "core/mesh/SmoothNormals.h"
+#include "core/nodes/BlendSource.h"
 #include "core/nodes/LatticeMesh.h"
 #include "core/nodes/TriangleSources.h"
-#include "core/stitch/SoundMesh.h"
+#include "core/stitch/KeptMesh.h"
 #include "core/stitch/Stitch.h"
 
 #include <algorithm>
-#include <unordered_map>
 
 namespace hybridtree
 {
@@ -22,6 +22,8 @@ constexpr std::size_t kMaxBytes = std::size_t(8) << 30;
 class SumInteraction final : public Interaction
 {
 public:
+  int kind() const override { return 0; }
+
   bool marks(const std::vector<MarkTerm>& terms, const std::vector<int>& present) const override
   {
     const auto isPositive = [&](int k) { return !terms[k].node->isNegative(); };
@@ -46,6 +48,8 @@ public:
 class LocalInteraction final : public Interaction
 {
 public:
+  int kind() const override { return 1; }
+
   bool marks(const std::vector<MarkTerm>& terms, const std::vector<int>& present) const override
   {
     bool has[4] = {};
@@ -86,10 +90,7 @@ bool pays(
   double area = 0.0;
   for (const KeptPart& part : kept)
   {
-    for (std::size_t t = 0; t < part.mesh->triangles.size(); ++t)
-    {
-      area += 0.5 * areaNormal(*part.mesh, t).norm();
-    }
+    area += KeptMesh::of(part.mesh)->area();
   }
   const double all = kPointsPerSquare * area / (cellSize * cellSize);
   const double made = static_cast<double>(cells.size()) / kCellsPerPoint;
@@ -129,7 +130,7 @@ std::vector<KeptPart> keptMeshes(const std::vector<BlendPart>& parts, std::vecto
     {
       continue;
     }
-    terms[k].kept = isSoundMesh(part.mesh);
+    terms[k].kept = KeptMesh::of(part.mesh)->isSound();
     if (terms[k].kept)
     {
       kept.push_back(std::move(part));
@@ -138,47 +139,104 @@ std::vector<KeptPart> keptMeshes(const std::vector<BlendPart>& parts, std::vecto
   return kept;
 }
 
-/// As latticeMesh() does in a faceted tree, but for the new points alone.
-void smoothNewNormals(StitchedMesh& stitched)
+std::vector<Box3> influenceBoxes(const std::vector<BlendPart>& parts)
 {
-  TriangleMesh& mesh = stitched.mesh;
-  TriangleMesh part;
-  std::unordered_map<std::int32_t, std::int32_t> number;
-  std::vector<std::int32_t> points;
-  for (std::size_t t = stitched.keptTriangles; t < mesh.triangles.size(); ++t)
+  std::vector<Box3> boxes;
+  for (const BlendPart& part : parts)
   {
-    Triangle triangle = mesh.triangles[t];
-    for (std::int32_t& v : triangle)
-    {
-      const auto [found, isNew] = number.try_emplace(v, static_cast<std::int32_t>(points.size()));
-      if (isNew)
-      {
-        points.push_back(v);
-        part.points.push_back(mesh.points[v]);
-        part.normals.push_back(mesh.normals[v]);
-      }
-      v = found->second;
-    }
-    part.triangles.push_back(triangle);
+    boxes.push_back(part.node->influenceBounds());
   }
-  smoothNormals(part);
-  for (std::size_t k = 0; k < points.size(); ++k)
-  {
-    if (static_cast<std::size_t>(points[k]) >= stitched.keptPoints)
-    {
-      mesh.normals[points[k]] = part.normals[k];
-    }
-  }
+  return boxes;
 }
 
-TriangleMesh stitchOver(const Node& blend, const std::vector<KeptPart>& kept, CellSet cells,
-  const CellGrid& grid, BlendMeshReport& report, const Progress& progress)
+/// The field of a blend for the islands of marked cells.
+class BlendField : public IslandField
+{
+public:
+  explicit BlendField(const Node& blend) : blend_(blend) {}
+
+  void finish(TriangleMesh& island, std::size_t keptPoints, const Progress& progress) const override
+  {
+    if (blend_.isFaceted())
+    {
+      const std::vector<Vec3> before(
+        island.normals.begin(), island.normals.begin() + static_cast<std::ptrdiff_t>(keptPoints));
+      smoothNormals(island);
+      std::copy(before.begin(), before.end(), island.normals.begin());
+    }
+    findSourceLeaves(blend_, island, 0, progress);
+  }
+
+protected:
+  const Node& blend_;
+};
+
+/// Of a sum: of those parts that reach an island, in their order, so that the others do not even
+/// change the rounding.
+class SumIslandField final : public BlendField
+{
+public:
+  SumIslandField(const Node& blend, const std::vector<BlendPart>& parts)
+    : BlendField(blend), parts_(parts), boxes_(influenceBoxes(parts))
+  {
+  }
+
+  Near near(const Box3& box) const override
+  {
+    std::vector<BlendSource::Term> terms;
+    Near near;
+    for (std::size_t k = 0; k < parts_.size(); ++k)
+    {
+      const BlendPart& part = parts_[k];
+      if (boxes_[k].intersects(box))
+      {
+        terms.push_back({ FieldSourcePtr(FieldSourcePtr(), part.node), part.count });
+        near.dependencies.emplace_back(
+          part.node->shared_from_this(), static_cast<double>(part.count), part.firstLeaf);
+      }
+    }
+    near.source = std::make_shared<BlendSource>(std::move(terms));
+    return near;
+  }
+
+private:
+  const std::vector<BlendPart>& parts_;
+  const std::vector<Box3> boxes_;
+};
+
+/// Of a local blend, as a whole.
+class LocalIslandField final : public BlendField
+{
+public:
+  LocalIslandField(const Node& blend, const LocalBlendParts& parts)
+    : BlendField(blend), parts_(parts)
+  {
+  }
+
+  Near near(const Box3&) const override
+  {
+    Near near;
+    near.source = FieldSourcePtr(FieldSourcePtr(), &blend_);
+    for (const Node* node : { parts_.a, parts_.b, parts_.region })
+    {
+      near.dependencies.emplace_back(node->shared_from_this(), 1.0, 0);
+    }
+    return near;
+  }
+
+private:
+  const LocalBlendParts& parts_;
+};
+
+TriangleMesh stitchOver(const Node& blend, const IslandField& field,
+  const std::vector<KeptPart>& kept, CellSet cells, const CellGrid& grid, BlendMeshReport& report,
+  const Progress& progress)
 {
   StitchOptions options;
   options.grid = grid;
   options.maxBytes = kMaxBytes;
   std::optional<StitchedMesh> stitched =
-    stitch(blend, kept, std::move(cells), options, ProgressPart(progress, 0.0, 0.9));
+    stitch(field, kept, std::move(cells), options, ProgressPart(progress, 0.0, 0.9));
   if (!stitched)
   {
     report.warning = "The blend could not be joined to the meshes of its operands; all of it was "
@@ -190,23 +248,10 @@ TriangleMesh stitchOver(const Node& blend, const std::vector<KeptPart>& kept, Ce
   report.keptTriangles = stitched->keptTriangles;
   report.cutTriangles = stitched->cutTriangles;
   report.newTriangles = stitched->mesh.triangles.size() - stitched->keptTriangles;
+  report.islands = stitched->islands;
+  report.rememberedIslands = stitched->remembered;
   report.rounds = stitched->rounds;
-  if (blend.isFaceted())
-  {
-    smoothNewNormals(*stitched);
-  }
-  findSourceLeaves(blend, stitched->mesh, stitched->keptTriangles, progress);
   return std::move(stitched->mesh);
-}
-
-std::vector<Box3> influenceBoxes(const std::vector<BlendPart>& parts)
-{
-  std::vector<Box3> boxes;
-  for (const BlendPart& part : parts)
-  {
-    boxes.push_back(part.node->influenceBounds());
-  }
-  return boxes;
 }
 
 double ratioOf(std::size_t part, const std::vector<Box3>& boxes)
@@ -272,10 +317,12 @@ std::vector<std::string> MeshWarnings::all() const
   return warnings_;
 }
 
-TriangleMesh blendMesh(const Node& blend, const std::vector<BlendPart>& parts,
-  const BlendOptions& options, double edgeLength, BlendMeshReport& report, const Progress& progress)
+TriangleMesh blendMesh(const Node& blend, std::vector<BlendPart> parts, const BlendOptions& options,
+  double edgeLength, BlendMeshReport& report, const Progress& progress)
 {
   report = {};
+  std::sort(parts.begin(), parts.end(),
+    [](const BlendPart& a, const BlendPart& b) { return a.firstLeaf < b.firstLeaf; });
   if (blend.isNegative())
   {
     return {};
@@ -300,7 +347,8 @@ TriangleMesh blendMesh(const Node& blend, const std::vector<BlendPart>& parts,
   {
     return wholeLattice(blend, edgeLength, report, ProgressPart(progress, 0.4, 1.0));
   }
-  return stitchOver(blend, kept, std::move(cells), grid, report, ProgressPart(progress, 0.4, 1.0));
+  return stitchOver(blend, SumIslandField(blend, parts), kept, std::move(cells), grid, report,
+    ProgressPart(progress, 0.4, 1.0));
 }
 
 TriangleMesh localBlendMesh(const Node& blend, const LocalBlendParts& local,
@@ -335,7 +383,14 @@ TriangleMesh localBlendMesh(const Node& blend, const LocalBlendParts& local,
   {
     return wholeLattice(blend, edgeLength, report, ProgressPart(progress, 0.4, 1.0));
   }
-  return stitchOver(blend, kept, std::move(cells), grid, report, ProgressPart(progress, 0.4, 1.0));
+  return stitchOver(blend, LocalIslandField(blend, local), kept, std::move(cells), grid, report,
+    ProgressPart(progress, 0.4, 1.0));
+}
+
+void forgetBlends()
+{
+  forgetMarks();
+  forgetIslands();
 }
 
 } // namespace hybridtree

@@ -28,6 +28,8 @@ struct BlendMeshReport
   std::size_t keptTriangles = 0;            ///< of the parts, as they are
   std::size_t cutTriangles = 0;
   std::size_t newTriangles = 0;
+  std::size_t islands = 0;           ///< parts of the new surface that do not touch
+  std::size_t rememberedIslands = 0; ///< of these, those taken from an earlier mesh
   int rounds = 0;      ///< of marking, cutting and polygonizing; more than 1 after a repair
   std::string warning; ///< what the user should know; empty if all went well
 };
@@ -56,11 +58,13 @@ private:
 /// Departs from [HT] in what it marks: not boxes but the cells where the fields are not 0
 /// (MarkedCells.h), and in how it joins: exact cuts instead of filled gaps (Stitch.h).
 ///
+/// What was made for earlier blends of the same parts is taken over where nothing else reaches, so
+/// that an edit costs what it changes. The mesh is the same, bit for bit, as without.
+///
 /// \param parts whose fields add up to that of the blend: its children (node-based) or, through
 /// nested blends, all that is blended (primitive-based). \param method told in the report.
-TriangleMesh blendMesh(const Node& blend, const std::vector<BlendPart>& parts,
-  const BlendOptions& options, double edgeLength, BlendMeshReport& report,
-  const Progress& progress = Progress::none());
+TriangleMesh blendMesh(const Node& blend, std::vector<BlendPart> parts, const BlendOptions& options,
+  double edgeLength, BlendMeshReport& report, const Progress& progress = Progress::none());
 
 /// What a local blend is made of.
 struct LocalBlendParts
@@ -75,5 +79,8 @@ struct LocalBlendParts
 TriangleMesh localBlendMesh(const Node& blend, const LocalBlendParts& parts,
   const BlendOptions& options, double edgeLength, BlendMeshReport& report,
   const Progress& progress = Progress::none());
+
+/// Forgets what was made for earlier blends; for tests and benchmarks.
+void forgetBlends();
 
 } // namespace hybridtree

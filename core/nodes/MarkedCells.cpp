@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/nodes/MarkedCells.h"
 
+#include "core/base/Dependency.h"
 #include "core/base/Parallel.h"
+#include "core/base/RecentStore.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 namespace hybridtree
@@ -12,6 +15,10 @@ namespace
 {
 
 constexpr double kBytesPerBrick = 20000.0;
+
+// Cells along the side of what is marked, and remembered, as one.
+constexpr std::int64_t kUnit = 4 * kBrickSide;
+constexpr std::size_t kRememberedBytes = std::size_t(32) << 20;
 
 // A surface is looked for down to blocks of this many cells, and a bit beyond: meshes are off the
 // surfaces they stand for.
@@ -36,6 +43,43 @@ struct Block
   std::vector<Reach> reach;
 };
 
+/// All that the marks in one unit depend on.
+struct UnitKey
+{
+  CellGrid grid;
+  Index3 low{};
+  int interaction = 0;
+  std::vector<Dependency> terms;
+
+  bool operator==(const UnitKey& other) const
+  {
+    return grid == other.grid && low == other.low && interaction == other.interaction &&
+      terms == other.terms;
+  }
+
+  bool isExpired() const { return anyExpired(terms); }
+
+  std::uint64_t hash() const
+  {
+    HashSum sum;
+    sum.add(Index3Hash()(low));
+    for (const Dependency& term : terms)
+    {
+      term.addTo(sum);
+    }
+    return sum.value();
+  }
+};
+
+using UnitMarks = std::vector<CellSet::Brick>;
+using UnitStore = RecentStore<UnitKey, UnitMarks>;
+
+UnitStore& store()
+{
+  static UnitStore* const instance = new UnitStore(kRememberedBytes); // outlives all statics
+  return *instance;
+}
+
 class Marker
 {
 public:
@@ -50,28 +94,24 @@ public:
     Block root = this->rootBlock();
     if (root.side > 0)
     {
-      this->collectBricks(std::move(root));
+      this->collectUnits(std::move(root));
     }
-    struct Marks
-    {
-      std::vector<std::pair<Index3, int>> blocks;
-    };
-    std::vector<Marks> marks(bricks_.size());
-    parallelFor(bricks_.size(), 1,
+    std::vector<std::shared_ptr<const UnitMarks>> marks(units_.size());
+    parallelFor(units_.size(), 1,
       [&](std::size_t begin, std::size_t end)
       {
-        progress_.check();
         for (std::size_t k = begin; k < end; ++k)
         {
-          this->markBlock(bricks_[k], marks[k].blocks);
+          progress_.check();
+          marks[k] = this->marksOf(std::move(units_[k]));
         }
       });
     CellSet cells;
-    for (const Marks& part : marks)
+    for (const auto& unit : marks)
     {
-      for (const auto& [low, side] : part.blocks)
+      for (const CellSet::Brick& brick : *unit)
       {
-        cells.insertBlock(low, side);
+        cells.insertBrick(brick);
       }
     }
     cells.sort();
@@ -79,42 +119,104 @@ public:
   }
 
 private:
+  /// Blocks are at multiples of their side: a unit is the same wherever the terms begin and end.
   Block rootBlock() const
   {
     Box3 bounds;
-    for (const MarkTerm& term : terms_)
+    Block root;
+    root.side = 0;
+    for (std::size_t k = 0; k < terms_.size(); ++k)
     {
-      const Box3 box = term.node->influenceBounds();
+      const Box3 box = terms_[k].node->influenceBounds();
       if (!box.isEmpty())
       {
         bounds.extend(box);
+        root.reach.push_back({ static_cast<int>(k), false, nullptr });
       }
     }
-    Block root;
-    root.side = 0;
     if (bounds.isEmpty())
     {
       return root;
     }
     // Checks that cells can be counted.
     Lattice::covering(bounds, grid_.cellSize);
+    const Index3 first = grid_.cellAt(bounds.min());
     const Index3 last = grid_.cellAt(bounds.max());
-    const Index3 brick = brickOf(grid_.cellAt(bounds.min()));
-    root.side = kBrickSide;
+    root.side = kUnit;
     for (int axis = 0; axis < 3; ++axis)
     {
-      root.low[axis] = kBrickSide * brick[axis];
-      while (root.low[axis] + root.side <= last[axis])
+      const auto from = [&] { return first[axis] & -root.side; };
+      while (from() + 2 * root.side <= last[axis])
       {
         root.side *= 2;
       }
     }
-    for (std::size_t k = 0; k < terms_.size(); ++k)
+    // Two a side cover the bounds: their block, which need not be at a multiple.
+    for (int axis = 0; axis < 3; ++axis)
     {
-      const Node* node = terms_[k].node;
-      root.reach.push_back({ static_cast<int>(k), false, FieldSourcePtr(FieldSourcePtr(), node) });
+      root.low[axis] = first[axis] & -root.side;
     }
+    root.side *= 2;
     return root;
+  }
+
+  /// By influence boxes alone.
+  void collectUnits(Block block)
+  {
+    const Box3 box = this->boxOf(block, kSurfaceMargin);
+    std::vector<int> present;
+    std::vector<Reach> left;
+    for (const Reach& reach : block.reach)
+    {
+      if (box.intersects(terms_[reach.term].node->influenceBounds()))
+      {
+        present.push_back(reach.term);
+        left.push_back(reach);
+      }
+    }
+    if (!interaction_.marks(terms_, present))
+    {
+      return;
+    }
+    block.reach = std::move(left);
+    if (block.side == kUnit)
+    {
+      units_.push_back(std::move(block));
+      this->checkBudget(units_.size());
+      return;
+    }
+    progress_.check();
+    this->forEachChild(block, [&](Block child) { this->collectUnits(std::move(child)); });
+  }
+
+  void checkBudget(std::size_t bricks) const
+  {
+    const auto count = static_cast<double>(bricks);
+    budget_.check(count * kBytesPerBrick, count * kBrickPoints);
+  }
+
+  std::shared_ptr<const UnitMarks> marksOf(Block unit)
+  {
+    UnitKey key{ grid_, unit.low, interaction_.kind(), {} };
+    for (Reach& reach : unit.reach)
+    {
+      const MarkTerm& term = terms_[reach.term];
+      key.terms.emplace_back(term.node->shared_from_this(), term.weight, term.kept ? 1 : 0);
+      reach.source = FieldSourcePtr(FieldSourcePtr(), term.node);
+    }
+    std::shared_ptr<const UnitMarks> marks = store().find(key);
+    if (!marks)
+    {
+      CellSet cells;
+      std::vector<FieldSourcePtr> ancestors;
+      this->markBlock(std::move(unit), ancestors, cells);
+      marks = std::make_shared<const UnitMarks>(cells.bricks());
+      store().keep(key, marks,
+        sizeof key + key.terms.size() * sizeof(Dependency) +
+          marks->size() * sizeof(CellSet::Brick));
+    }
+    this->checkBudget(bricks_ += marks->size());
+    return marks;
   }
 
   Box3 boxOf(const Block& block, double margin) const
@@ -198,26 +300,8 @@ private:
     }
   }
 
-  void collectBricks(Block block)
-  {
-    if (this->look(block) == Answer::None)
-    {
-      return;
-    }
-    this->narrow(block);
-    if (block.side == kBrickSide)
-    {
-      bricks_.push_back(std::move(block));
-      const auto count = static_cast<double>(bricks_.size());
-      budget_.check(count * kBytesPerBrick, count * kBrickPoints);
-      return;
-    }
-    progress_.check();
-    this->forEachChild(block, [&](Block child) { this->collectBricks(std::move(child)); });
-  }
-
-  /// Specialises the terms to a block.
-  void narrow(Block& block)
+  /// Specialises the terms to a block. \param ancestors takes sources that others may refer to.
+  void narrow(Block& block, std::vector<FieldSourcePtr>& ancestors) const
   {
     const Box3 box = this->boxOf(block, kSurfaceMargin);
     std::vector<Reach> left;
@@ -228,7 +312,7 @@ private:
       {
         if (source != reach.source)
         {
-          ancestors_.push_back(std::move(reach.source));
+          ancestors.push_back(std::move(reach.source));
         }
         left.push_back({ reach.term, reach.certain, std::move(source) });
       }
@@ -236,20 +320,24 @@ private:
     block.reach = std::move(left);
   }
 
-  void markBlock(Block block, std::vector<std::pair<Index3, int>>& marks) const
+  void markBlock(Block block, std::vector<FieldSourcePtr>& ancestors, CellSet& cells) const
   {
-    // A brick was looked at when it was found.
-    const Answer answer = block.side == kBrickSide ? Answer::Open : this->look(block);
+    const Answer answer = this->look(block);
     if (answer == Answer::None)
     {
       return;
     }
     if (block.side == 1 || (answer == Answer::All && block.side <= kSurfaceBlock))
     {
-      marks.emplace_back(block.low, static_cast<int>(block.side));
+      cells.insertBlock(block.low, static_cast<int>(block.side));
       return;
     }
-    this->forEachChild(block, [&](Block child) { this->markBlock(std::move(child), marks); });
+    if (block.side >= kBrickSide)
+    {
+      this->narrow(block, ancestors);
+    }
+    this->forEachChild(
+      block, [&](Block child) { this->markBlock(std::move(child), ancestors, cells); });
   }
 
   const std::vector<MarkTerm>& terms_;
@@ -257,8 +345,8 @@ private:
   const CellGrid grid_;
   const MemoryBudget& budget_;
   const Progress& progress_;
-  std::vector<Block> bricks_;
-  std::vector<FieldSourcePtr> ancestors_; ///< sources that those of the bricks may refer to
+  std::vector<Block> units_;
+  std::atomic<std::size_t> bricks_{ 0 };
 };
 
 } // namespace
@@ -267,6 +355,11 @@ CellSet markedCells(const std::vector<MarkTerm>& terms, const Interaction& inter
   const CellGrid& grid, const MemoryBudget& budget, const Progress& progress)
 {
   return Marker(terms, interaction, grid, budget, progress).run();
+}
+
+void forgetMarks()
+{
+  store().clear();
 }
 
 } // namespace hybridtree

@@ -26,6 +26,9 @@ class Interaction
 public:
   virtual ~Interaction() = default;
 
+  /// A number that tells it from all others.
+  virtual int kind() const = 0;
+
   /// \param present terms whose fields are not 0. More of them never mark less.
   virtual bool marks(const std::vector<MarkTerm>& terms, const std::vector<int>& present) const = 0;
 
@@ -39,9 +42,13 @@ public:
 ///
 /// Influence boxes are where the search begins; what counts is the range of each field over blocks
 /// of the lattice, halved down to single cells where that is open, so that a limb that lies slant
-/// does not mark its box. Sorted; the same for any number of threads.
+/// does not mark its box. Sorted; the same for any number of threads. Blocks of the lattice that
+/// the same terms reach as in an earlier call are not looked at again.
 /// \throws TooLarge when the marked bricks pass the budget; Cancelled.
 CellSet markedCells(const std::vector<MarkTerm>& terms, const Interaction& interaction,
   const CellGrid& grid, const MemoryBudget& budget, const Progress& progress = Progress::none());
+
+/// Forgets the earlier calls; for tests and benchmarks.
+void forgetMarks();
 
 } // namespace hybridtree

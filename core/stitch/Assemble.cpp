@@ -2,6 +2,7 @@
 #include "core/stitch/Assemble.h"
 
 #include "core/base/Parallel.h"
+#include "core/stitch/KeptMesh.h"
 
 #include <algorithm>
 
@@ -13,24 +14,78 @@ namespace
 constexpr std::size_t kGrain = 16384;
 
 template <typename Body>
-void forEach(std::size_t count, Body&& body)
+void forEachRange(std::size_t count, Body&& body)
 {
-  parallelFor(count, kGrain,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (std::size_t k = begin; k < end; ++k)
-      {
-        body(k);
-      }
-    });
+  parallelFor(count, kGrain, body);
 }
+
+/// Which of 0 .. size - 1 stay, and the number that each of them gets.
+class Selection
+{
+public:
+  /// \param gone rising, each once.
+  Selection(std::size_t size, const std::vector<std::int32_t>& gone, std::size_t firstNumber)
+    : first_(firstNumber)
+  {
+    std::size_t begin = 0;
+    for (const std::int32_t g : gone)
+    {
+      this->addRun(begin, static_cast<std::size_t>(g));
+      begin = static_cast<std::size_t>(g) + 1;
+    }
+    this->addRun(begin, size);
+  }
+
+  std::size_t first() const { return first_; }
+  std::size_t count() const { return count_; }
+
+  /// Calls body(old, number, count) for runs that keep their order, in parallel.
+  template <typename Body>
+  void forEachRun(Body&& body) const
+  {
+    forEachRange(count_,
+      [&](std::size_t begin, std::size_t end)
+      {
+        auto run = std::upper_bound(runs_.begin(), runs_.end(), begin,
+                     [](std::size_t at, const Run& candidate) { return at < candidate.number; }) -
+          1;
+        while (begin < end)
+        {
+          const std::size_t runEnd = run + 1 == runs_.end() ? count_ : (run + 1)->number;
+          const std::size_t last = std::min(end, runEnd);
+          body(run->old + (begin - run->number), first_ + begin, last - begin);
+          begin = last;
+          ++run;
+        }
+      });
+  }
+
+private:
+  struct Run
+  {
+    std::size_t old;
+    std::size_t number; ///< without that of the first
+  };
+
+  void addRun(std::size_t begin, std::size_t end)
+  {
+    if (begin < end)
+    {
+      runs_.push_back({ begin, count_ });
+      count_ += end - begin;
+    }
+  }
+
+  std::vector<Run> runs_;
+  std::size_t first_;
+  std::size_t count_ = 0;
+};
 
 class Assembler
 {
 public:
-  Assembler(
-    const std::vector<KeptPart>& parts, const std::vector<CutMesh>& cuts, const Patch& patch)
-    : parts_(parts), cuts_(cuts), patch_(patch)
+  Assembler(const std::vector<KeptPart>& parts, const std::vector<PlacedIsland>& islands)
+    : parts_(parts), islands_(islands)
   {
     for (const KeptPart& part : parts)
     {
@@ -41,278 +96,214 @@ public:
 
   StitchedMesh run()
   {
-    std::size_t triangles = 0;
-    for (const CutMesh& cut : cuts_)
-    {
-      triangles += cut.kept.size();
-    }
-    result_.keptTriangles = triangles;
-    TriangleMesh& mesh = result_.mesh;
-    mesh.triangles.resize(triangles);
-    mesh.sourceLeaf.resize(triangles);
-    mesh.sourceTriangle.resize(hasSourceTriangles_ ? triangles : 0);
-    this->numberPoints();
-    std::size_t first = 0;
+    this->select();
+    this->allocate();
     for (std::size_t p = 0; p < parts_.size(); ++p)
     {
       this->copyPoints(p);
-      this->copyTriangles(p, first);
-      first += cuts_[p].kept.size();
+      this->copyTriangles(p);
     }
-    for (std::size_t p = 0; p < parts_.size(); ++p)
+    std::size_t point = result_.keptPoints;
+    std::size_t triangle = result_.keptTriangles;
+    for (const PlacedIsland& placed : islands_)
     {
-      this->addPieces(p);
+      this->addIsland(placed, point, triangle);
+      point += ownPoints(placed);
+      triangle += placed.island->mesh.triangles.size();
+      result_.samplePoints += placed.island->samplePoints;
+      result_.cutTriangles += placed.island->cutTriangles;
     }
-    this->addPatch();
     return std::move(result_);
   }
 
 private:
-  /// What is kept keeps its order; points of no triangle go.
-  void numberPoints()
+  static std::size_t ownPoints(const PlacedIsland& placed)
   {
-    std::size_t count = 0;
-    for (std::size_t p = 0; p < parts_.size(); ++p)
+    return placed.island->mesh.points.size() - placed.island->rim.size();
+  }
+
+  /// What is kept keeps its order; points of no triangle go.
+  void select()
+  {
+    std::vector<std::vector<std::int32_t>> gone(parts_.size());
+    std::vector<std::vector<std::int32_t>> used(parts_.size()); // points that islands have
+    for (const PlacedIsland& placed : islands_)
     {
-      const TriangleMesh& mesh = *parts_[p].mesh;
-      std::vector<std::int32_t> number(mesh.points.size(), -1);
-      for (const std::int32_t t : cuts_[p].kept)
+      const Island& island = *placed.island;
+      for (std::size_t k = 0; k < placed.parts.size(); ++k)
       {
-        for (const std::int32_t v : mesh.triangles[t])
-        {
-          number[v] = 0;
-        }
+        auto& all = gone[placed.parts[k]];
+        all.insert(all.end(), island.gone[k].begin(), island.gone[k].end());
       }
-      for (const Triangle& piece : cuts_[p].pieces)
+      for (const Triangle& triangle : island.mesh.triangles)
       {
-        for (const std::int32_t v : piece)
+        for (const std::int32_t v : triangle)
         {
-          if (v < static_cast<std::int32_t>(number.size()))
+          if (static_cast<std::size_t>(v) < island.rim.size())
           {
-            number[v] = 0;
+            used[placed.parts[island.rim[v].part]].push_back(island.rim[v].point);
           }
         }
       }
-      for (std::int32_t& n : number)
-      {
-        n = n == 0 ? static_cast<std::int32_t>(count++) : -1;
-      }
-      numbers_.push_back(std::move(number));
     }
-    keptPoints_ = count;
-    result_.keptPoints = count;
-    for (const CutMesh& cut : cuts_)
+    std::size_t points = 0;
+    std::size_t triangles = 0;
+    for (std::size_t p = 0; p < parts_.size(); ++p)
     {
-      firstCut_.push_back(static_cast<std::int32_t>(count));
-      count += cut.vertices.size();
+      std::sort(gone[p].begin(), gone[p].end());
+      const TriangleMesh& mesh = *parts_[p].mesh;
+      points_.emplace_back(mesh.points.size(), this->pointsWithout(p, gone[p], used[p]), points);
+      triangles_.emplace_back(mesh.triangles.size(), gone[p], triangles);
+      points += points_.back().count();
+      triangles += triangles_.back().count();
+    }
+    result_.keptPoints = points;
+    result_.keptTriangles = triangles;
+  }
+
+  /// The points of a part that no triangle has any more.
+  std::vector<std::int32_t> pointsWithout(std::size_t p, const std::vector<std::int32_t>& gone,
+    const std::vector<std::int32_t>& used) const
+  {
+    const TriangleMesh& mesh = *parts_[p].mesh;
+    std::vector<std::int32_t> left = KeptMesh::of(parts_[p].mesh)->valence();
+    for (const std::int32_t t : gone)
+    {
+      for (const std::int32_t v : mesh.triangles[t])
+      {
+        --left[v];
+      }
+    }
+    for (const std::int32_t v : used)
+    {
+      ++left[v];
+    }
+    std::vector<std::int32_t> without;
+    for (std::size_t v = 0; v < left.size(); ++v)
+    {
+      if (left[v] == 0)
+      {
+        without.push_back(static_cast<std::int32_t>(v));
+      }
+    }
+    return without;
+  }
+
+  void allocate()
+  {
+    std::size_t points = result_.keptPoints;
+    std::size_t triangles = result_.keptTriangles;
+    for (const PlacedIsland& placed : islands_)
+    {
+      points += ownPoints(placed);
+      triangles += placed.island->mesh.triangles.size();
     }
     TriangleMesh& mesh = result_.mesh;
-    firstPatch_ = count;
-    count += patch_.points.size();
-    mesh.points.resize(count);
-    mesh.normals.resize(count, Vec3::Zero());
-    mesh.vertexOrigin.resize(hasOrigins_ ? count : 0);
+    mesh.points.resize(points);
+    mesh.normals.resize(points);
+    mesh.vertexOrigin.resize(hasOrigins_ ? points : 0);
+    mesh.triangles.resize(triangles);
+    mesh.sourceLeaf.resize(triangles);
+    mesh.sourceTriangle.resize(hasSourceTriangles_ ? triangles : 0, -1);
   }
 
   void copyPoints(std::size_t p)
   {
     const TriangleMesh& from = *parts_[p].mesh;
+    TriangleMesh& to = result_.mesh;
+    std::vector<std::int32_t> number(from.points.size(), -1);
+    points_[p].forEachRun(
+      [&](std::size_t old, std::size_t first, std::size_t count)
+      {
+        std::copy_n(&from.points[old], count, &to.points[first]);
+        std::copy_n(&from.normals[old], count, &to.normals[first]);
+        for (std::size_t k = 0; k < count; ++k)
+        {
+          number[old + k] = static_cast<std::int32_t>(first + k);
+        }
+        for (std::size_t k = 0; k < count && !from.vertexOrigin.empty(); ++k)
+        {
+          VertexOrigin origin = from.vertexOrigin[old + k];
+          origin.leaf += origin.leaf >= 0 ? parts_[p].firstLeaf : 0;
+          to.vertexOrigin[first + k] = origin;
+        }
+      });
+    numbers_.push_back(std::move(number));
+  }
+
+  void copyTriangles(std::size_t p)
+  {
+    const TriangleMesh& from = *parts_[p].mesh;
+    TriangleMesh& to = result_.mesh;
     const std::vector<std::int32_t>& number = numbers_[p];
-    TriangleMesh& to = result_.mesh;
-    forEach(number.size(),
-      [&](std::size_t v)
+    triangles_[p].forEachRun(
+      [&](std::size_t old, std::size_t first, std::size_t count)
       {
-        if (number[v] < 0)
+        for (std::size_t k = 0; k < count; ++k)
         {
-          return;
+          const Triangle& c = from.triangles[old + k];
+          to.triangles[first + k] = { number[c[0]], number[c[1]], number[c[2]] };
         }
-        to.points[number[v]] = from.points[v];
-        if (!from.normals.empty())
+        for (std::size_t k = 0; k < count; ++k)
         {
-          to.normals[number[v]] = from.normals[v];
+          const std::int32_t leaf = from.sourceLeaf.empty() ? -1 : from.sourceLeaf[old + k];
+          to.sourceLeaf[first + k] = leaf < 0 ? -1 : leaf + parts_[p].firstLeaf;
         }
-        if (!from.vertexOrigin.empty())
+        if (!from.sourceTriangle.empty())
         {
-          to.vertexOrigin[number[v]] = this->shifted(p, from.vertexOrigin[v]);
-        }
-      });
-    const CutMesh& cut = cuts_[p];
-    for (std::size_t k = 0; k < cut.vertices.size(); ++k)
-    {
-      const CutVertex& vertex = cut.vertices[k];
-      const std::size_t at = firstCut_[p] + k;
-      to.points[at] = vertex.point;
-      const Triangle& c = from.triangles[vertex.triangle];
-      if (!from.normals.empty())
-      {
-        to.normals[at] = ((1.0 - vertex.u - vertex.v) * from.normals[c[0]] +
-          vertex.u * from.normals[c[1]] + vertex.v * from.normals[c[2]])
-                           .stableNormalized();
-      }
-      if (!from.vertexOrigin.empty() && !from.sourceTriangle.empty())
-      {
-        to.vertexOrigin[at] = this->originOf(p, vertex);
-      }
-    }
-  }
-
-  VertexOrigin shifted(std::size_t p, VertexOrigin origin) const
-  {
-    origin.leaf += origin.leaf >= 0 ? parts_[p].firstLeaf : 0;
-    return origin;
-  }
-
-  std::int32_t leafOf(std::size_t p, std::int32_t t) const
-  {
-    const std::vector<std::int32_t>& leaf = parts_[p].mesh->sourceLeaf;
-    return leaf.empty() || leaf[t] < 0 ? -1 : leaf[t] + parts_[p].firstLeaf;
-  }
-
-  std::int32_t sourceOf(std::size_t p, std::int32_t t) const
-  {
-    const std::vector<std::int32_t>& source = parts_[p].mesh->sourceTriangle;
-    return source.empty() ? -1 : source[t];
-  }
-
-  /// Known where the corners of the triangle have their origins in the same triangle of the leaf.
-  VertexOrigin originOf(std::size_t p, const CutVertex& vertex) const
-  {
-    const TriangleMesh& mesh = *parts_[p].mesh;
-    const std::int32_t source = mesh.sourceTriangle[vertex.triangle];
-    const std::int32_t leaf = this->leafOf(p, vertex.triangle);
-    if (source < 0 || leaf < 0)
-    {
-      return {};
-    }
-    if (parts_[p].isLeaf)
-    {
-      return { leaf, source, vertex.u, vertex.v };
-    }
-    VertexOrigin result{ leaf, source, 0.0, 0.0 };
-    const double weights[3] = { 1.0 - vertex.u - vertex.v, vertex.u, vertex.v };
-    for (int k = 0; k < 3; ++k)
-    {
-      const VertexOrigin& corner = mesh.vertexOrigin[mesh.triangles[vertex.triangle][k]];
-      if (corner.triangle != source)
-      {
-        return {};
-      }
-      result.u += weights[k] * corner.u;
-      result.v += weights[k] * corner.v;
-    }
-    return result;
-  }
-
-  std::int32_t numberOf(std::size_t p, std::int32_t v) const
-  {
-    const auto points = static_cast<std::int32_t>(numbers_[p].size());
-    return v < points ? numbers_[p][v] : firstCut_[p] + (v - points);
-  }
-
-  void copyTriangles(std::size_t p, std::size_t first)
-  {
-    TriangleMesh& to = result_.mesh;
-    const std::vector<std::int32_t>& kept = cuts_[p].kept;
-    forEach(kept.size(),
-      [&](std::size_t k)
-      {
-        const Triangle& c = parts_[p].mesh->triangles[kept[k]];
-        to.triangles[first + k] = { numbers_[p][c[0]], numbers_[p][c[1]], numbers_[p][c[2]] };
-        to.sourceLeaf[first + k] = this->leafOf(p, kept[k]);
-        if (hasSourceTriangles_)
-        {
-          to.sourceTriangle[first + k] = this->sourceOf(p, kept[k]);
+          std::copy_n(&from.sourceTriangle[old], count, &to.sourceTriangle[first]);
         }
       });
   }
 
-  void addTriangle(const Triangle& triangle, std::int32_t leaf, std::int32_t source)
+  void addIsland(const PlacedIsland& placed, std::size_t firstPoint, std::size_t firstTriangle)
   {
-    result_.mesh.triangles.push_back(triangle);
-    result_.mesh.sourceLeaf.push_back(leaf);
-    if (hasSourceTriangles_)
+    const Island& island = *placed.island;
+    const TriangleMesh& from = island.mesh;
+    TriangleMesh& to = result_.mesh;
+    const auto rim = static_cast<std::ptrdiff_t>(island.rim.size());
+    const auto at = [](auto& values, std::size_t first)
+    { return values.begin() + static_cast<std::ptrdiff_t>(first); };
+    std::copy(from.points.begin() + rim, from.points.end(), at(to.points, firstPoint));
+    std::copy(from.normals.begin() + rim, from.normals.end(), at(to.normals, firstPoint));
+    if (!from.vertexOrigin.empty())
     {
-      result_.mesh.sourceTriangle.push_back(source);
+      std::copy(
+        from.vertexOrigin.begin() + rim, from.vertexOrigin.end(), at(to.vertexOrigin, firstPoint));
     }
-  }
-
-  void addPieces(std::size_t p)
-  {
-    const CutMesh& cut = cuts_[p];
-    std::int32_t last = -1;
-    for (std::size_t k = 0; k < cut.pieces.size(); ++k)
+    std::copy(from.sourceLeaf.begin(), from.sourceLeaf.end(), at(to.sourceLeaf, firstTriangle));
+    if (!from.sourceTriangle.empty())
     {
-      const Triangle& c = cut.pieces[k];
-      const std::int32_t t = cut.pieceOf[k];
-      this->addTriangle(
-        { this->numberOf(p, c[0]), this->numberOf(p, c[1]), this->numberOf(p, c[2]) },
-        this->leafOf(p, t), this->sourceOf(p, t));
-      result_.cutTriangles += t != last ? 1 : 0;
-      last = t;
+      std::copy(from.sourceTriangle.begin(), from.sourceTriangle.end(),
+        at(to.sourceTriangle, firstTriangle));
     }
-  }
-
-  void addPatch()
-  {
-    TriangleMesh& mesh = result_.mesh;
-    std::copy(patch_.points.begin(), patch_.points.end(),
-      mesh.points.begin() + static_cast<std::ptrdiff_t>(firstPatch_));
-    std::copy(patch_.normals.begin(), patch_.normals.end(),
-      mesh.normals.begin() + static_cast<std::ptrdiff_t>(firstPatch_));
-    for (const Triangle& c : patch_.triangles)
+    const auto shift = static_cast<std::int32_t>(firstPoint) - static_cast<std::int32_t>(rim);
+    for (std::size_t t = 0; t < from.triangles.size(); ++t)
     {
-      const auto shift = static_cast<std::int32_t>(keptPoints_);
-      this->addTriangle({ c[0] + shift, c[1] + shift, c[2] + shift }, -1, -1);
+      for (int k = 0; k < 3; ++k)
+      {
+        const std::int32_t v = from.triangles[t][k];
+        to.triangles[firstTriangle + t][k] =
+          v < rim ? numbers_[placed.parts[island.rim[v].part]][island.rim[v].point] : v + shift;
+      }
     }
-    result_.samplePoints = patch_.points.size();
   }
 
   const std::vector<KeptPart>& parts_;
-  const std::vector<CutMesh>& cuts_;
-  const Patch& patch_;
+  const std::vector<PlacedIsland>& islands_;
   bool hasSourceTriangles_ = false;
   bool hasOrigins_ = false;
+  std::vector<Selection> points_;                  ///< per part
+  std::vector<Selection> triangles_;               ///< per part
   std::vector<std::vector<std::int32_t>> numbers_; ///< per part and point: of the result, or -1
-  std::vector<std::int32_t> firstCut_;
-  std::size_t keptPoints_ = 0;
-  std::size_t firstPatch_ = 0;
   StitchedMesh result_;
 };
 
 } // namespace
 
-JointBorder jointBorder(const std::vector<KeptPart>& parts, const std::vector<CutMesh>& cuts)
+StitchedMesh assemble(const std::vector<KeptPart>& parts, const std::vector<PlacedIsland>& islands)
 {
-  JointBorder joint;
-  for (std::size_t p = 0; p < cuts.size(); ++p)
-  {
-    const auto shift = static_cast<std::int32_t>(joint.points.size()) -
-      static_cast<std::int32_t>(parts[p].mesh->points.size());
-    for (BorderSegment segment : cuts[p].segments)
-    {
-      segment.from += shift;
-      segment.to += shift;
-      joint.border.segments.push_back(segment);
-    }
-    for (BorderCrossing crossing : cuts[p].crossings)
-    {
-      crossing.vertex += shift;
-      joint.border.crossings.push_back(crossing);
-    }
-    for (const CutVertex& vertex : cuts[p].vertices)
-    {
-      joint.points.push_back(vertex.point);
-    }
-  }
-  joint.border.vertexCount = static_cast<std::int32_t>(joint.points.size());
-  joint.border.points = joint.points.data();
-  return joint;
-}
-
-StitchedMesh assemble(
-  const std::vector<KeptPart>& parts, const std::vector<CutMesh>& cuts, const Patch& patch)
-{
-  return Assembler(parts, cuts, patch).run();
+  return Assembler(parts, islands).run();
 }
 
 } // namespace hybridtree

@@ -1,26 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "core/stitch/CutMesh.h"
-#include "core/stitch/Patch.h"
+#include "core/stitch/Island.h"
 #include "core/stitch/Stitch.h"
+
+#include <memory>
+#include <vector>
 
 namespace hybridtree
 {
 
-/// The lines in which all cut meshes meet the border: vertices are the cut vertices of the first
-/// part, those of the second, and so on.
-struct JointBorder
+/// An island over some of the parts: its part k is part parts[k] of all.
+struct PlacedIsland
 {
-  std::vector<Vec3> points;
-  PatchBorder border;
+  std::shared_ptr<const Island> island;
+  std::vector<std::int32_t> parts;
 };
 
-JointBorder jointBorder(const std::vector<KeptPart>& parts, const std::vector<CutMesh>& cuts);
-
-/// One mesh of what is kept of the parts, the pieces of their cut triangles, and the patch, whose
-/// vertices follow those of the border.
-StitchedMesh assemble(
-  const std::vector<KeptPart>& parts, const std::vector<CutMesh>& cuts, const Patch& patch);
+/// One mesh of what is kept of the parts and the islands, in their order. A few copies of the
+/// parts' arrays, in parallel; nothing is looked for.
+StitchedMesh assemble(const std::vector<KeptPart>& parts, const std::vector<PlacedIsland>& islands);
 
 } // namespace hybridtree

@@ -36,6 +36,11 @@ struct CellGrid
   /// Of cells low .. low + side - 1, and `margin` cells around them.
   Box3 boxOf(const Index3& low, double side, double margin = 0.0) const;
 
+  bool operator==(const CellGrid& other) const
+  {
+    return cellSize == other.cellSize && origin == other.origin;
+  }
+
   /// The grid's part from cell `low` to cell `high`.
   Lattice lattice(const Index3& low, const Index3& high) const;
 };

@@ -109,11 +109,16 @@ void CellSet::insert(const CellSet& other)
 {
   for (const Brick& brick : other.bricks_)
   {
-    BrickBits& bits = this->bitsOf(brick.index);
-    for (int z = 0; z < kBrickSide; ++z)
-    {
-      bits[z] |= brick.bits[z];
-    }
+    this->insertBrick(brick);
+  }
+}
+
+void CellSet::insertBrick(const Brick& brick)
+{
+  BrickBits& bits = this->bitsOf(brick.index);
+  for (int z = 0; z < kBrickSide; ++z)
+  {
+    bits[z] |= brick.bits[z];
   }
 }
 

@@ -36,6 +36,8 @@ public:
   {
     Index3 index{};
     BrickBits bits{}; ///< cell (x, y, z): bit 8 y + x of word z
+
+    bool operator==(const Brick& other) const { return index == other.index && bits == other.bits; }
   };
 
   bool empty() const { return bricks_.empty(); }
@@ -50,6 +52,7 @@ public:
   /// Cells low .. low + side - 1. \pre they lie in one brick.
   void insertBlock(const Index3& low, int side);
   void insert(const CellSet& other);
+  void insertBrick(const Brick& brick);
 
   /// Bricks in the order of z, y, x: the same for the same cells, however they came in.
   void sort();
@@ -92,8 +95,10 @@ public:
     }
   }
 
-private:
+  /// Number of the lowest bit of a word that is not 0.
   static int lowestBit(std::uint64_t word);
+
+private:
   BrickBits& bitsOf(const Index3& brick);
 
   std::vector<Brick> bricks_;

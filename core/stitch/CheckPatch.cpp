@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/stitch/CheckPatch.h"
 
-#include "core/base/Parallel.h"
-
 #include <algorithm>
 #include <tuple>
 
@@ -11,7 +9,6 @@ namespace hybridtree
 namespace
 {
 
-constexpr std::size_t kGrain = 16384;
 constexpr double kTurnedOver = -0.2; // cosine to the normals
 constexpr double kSliver = 0.05;     // height over longest side
 
@@ -27,7 +24,7 @@ void addCorners(const Triangle& c, const std::vector<bool>& isNew, std::vector<C
 {
   for (int k = 0; k < 3; ++k)
   {
-    if (isNew[c[k]])
+    if (static_cast<std::size_t>(c[k]) < isNew.size() && isNew[c[k]])
     {
       corners.push_back({ c[k], c[(k + 1) % 3], c[(k + 2) % 3] });
     }
@@ -66,35 +63,25 @@ bool isOneFan(const Corner* begin, const Corner* end)
 
 } // namespace
 
-std::vector<std::int32_t> faultyPoints(const TriangleMesh& mesh, std::size_t firstNew)
+std::vector<std::int32_t> faultyPoints(
+  const TriangleMesh& mesh, const std::vector<Triangle>& around)
 {
   std::vector<bool> isNew(mesh.points.size(), false);
-  for (std::size_t t = firstNew; t < mesh.triangles.size(); ++t)
+  for (const Triangle& triangle : mesh.triangles)
   {
-    for (const std::int32_t v : mesh.triangles[t])
+    for (const std::int32_t v : triangle)
     {
       isNew[v] = true;
     }
   }
-  std::vector<std::vector<Corner>> parts(firstNew / kGrain + 1);
-  parallelFor(firstNew, kGrain,
-    [&](std::size_t begin, std::size_t end)
-    {
-      std::vector<Corner> corners;
-      for (std::size_t t = begin; t < end; ++t)
-      {
-        addCorners(mesh.triangles[t], isNew, corners);
-      }
-      parts[begin / kGrain].insert(parts[begin / kGrain].end(), corners.begin(), corners.end());
-    });
   std::vector<Corner> corners;
-  for (const std::vector<Corner>& part : parts)
+  corners.reserve(3 * mesh.triangles.size() + around.size());
+  for (const std::vector<Triangle>* triangles : { &mesh.triangles, &around })
   {
-    corners.insert(corners.end(), part.begin(), part.end());
-  }
-  for (std::size_t t = firstNew; t < mesh.triangles.size(); ++t)
-  {
-    addCorners(mesh.triangles[t], isNew, corners);
+    for (const Triangle& triangle : *triangles)
+    {
+      addCorners(triangle, isNew, corners);
+    }
   }
   std::sort(corners.begin(), corners.end(),
     [](const Corner& a, const Corner& b)
@@ -116,10 +103,10 @@ std::vector<std::int32_t> faultyPoints(const TriangleMesh& mesh, std::size_t fir
   return faulty;
 }
 
-std::vector<std::size_t> turnedTriangles(const TriangleMesh& mesh, std::size_t firstNew)
+std::vector<std::size_t> turnedTriangles(const TriangleMesh& mesh)
 {
   std::vector<std::size_t> turned;
-  for (std::size_t t = firstNew; t < mesh.triangles.size(); ++t)
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
   {
     const Triangle& c = mesh.triangles[t];
     const Vec3 normal = areaNormal(mesh, t);

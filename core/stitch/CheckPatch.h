@@ -6,14 +6,15 @@
 namespace hybridtree
 {
 
-/// Points of the triangles from `firstNew` on around which the triangles do not form one closed
-/// fan. None: if the triangles before come from closed, oriented 2-manifolds, of which they are
-/// all that is not replaced, then the whole mesh is one. In time that goes with the new triangles,
-/// but for one glance at each of the others.
-std::vector<std::int32_t> faultyPoints(const TriangleMesh& mesh, std::size_t firstNew);
+/// Points of a mesh around which its triangles, with those around it, do not form one closed fan.
+/// None: if those around come from closed, oriented 2-manifolds, of which they are what is not
+/// replaced at the points of the mesh, then all together is one.
+/// \param around triangles with points of the mesh; points it does not have are numbered beyond.
+std::vector<std::int32_t> faultyPoints(
+  const TriangleMesh& mesh, const std::vector<Triangle>& around);
 
-/// Triangles from `firstNew` on that look against the normals of all their points; slivers, whose
-/// normals mean nothing, excepted.
-std::vector<std::size_t> turnedTriangles(const TriangleMesh& mesh, std::size_t firstNew);
+/// Triangles that look against the normals of all their points; slivers, whose normals mean
+/// nothing, excepted.
+std::vector<std::size_t> turnedTriangles(const TriangleMesh& mesh);
 
 } // namespace hybridtree

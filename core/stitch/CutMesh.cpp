@@ -2,7 +2,6 @@
 #include "core/stitch/CutMesh.h"
 
 #include "core/stitch/FillPolygon.h"
-#include "core/stitch/TriangleSides.h"
 
 #include <algorithm>
 #include <cmath>
@@ -59,30 +58,27 @@ public:
     , grid_(grid)
     , points_(static_cast<std::int32_t>(mesh.points.size()))
   {
-    if (!cells.empty())
-    {
-      low_ = cells.low();
-      high_ = cells.high();
-    }
+    low_ = cells.low();
+    high_ = cells.high();
   }
 
-  CutMesh run(const Progress& progress)
+  CutMesh run(const std::vector<std::int32_t>& candidates, const Progress& progress)
   {
-    const std::vector<TriangleSide> where = triangleSides(mesh_, cells_, grid_, progress);
     std::size_t count = 0;
-    for (std::size_t t = 0; t < where.size(); ++t)
+    for (const std::int32_t t : candidates)
     {
-      if (where[t] == TriangleSide::Outside)
+      const CellSet::Share share = this->shareOf(t);
+      if (share == CellSet::Share::All)
       {
-        result_.kept.push_back(static_cast<std::int32_t>(t));
+        result_.gone.push_back(t);
       }
-      else if (where[t] == TriangleSide::Border)
+      else if (share == CellSet::Share::Some)
       {
         if (++count % 256 == 0)
         {
           progress.check();
         }
-        this->cutTriangle(static_cast<std::int32_t>(t));
+        this->cutTriangle(t);
       }
     }
     return std::move(result_);
@@ -122,6 +118,25 @@ private:
     return std::clamp(grid_.slab(axis, this->point(v)[axis]), low_[axis] - 1, high_[axis] + 1);
   }
 
+  /// How many of the cells that a triangle's box touches are in the set.
+  CellSet::Share shareOf(std::int32_t t) const
+  {
+    const Triangle& c = mesh_.triangles[t];
+    Index3 from{}, to{};
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const auto [low, high] = std::minmax(
+        { mesh_.points[c[0]][axis], mesh_.points[c[1]][axis], mesh_.points[c[2]][axis] });
+      from[axis] = std::max(grid_.slab(axis, low), low_[axis] - 1);
+      to[axis] = std::min(grid_.slab(axis, high), high_[axis] + 1);
+      if (from[axis] > high_[axis] || to[axis] < low_[axis])
+      {
+        return CellSet::Share::None;
+      }
+    }
+    return cells_.shareOf(from, to);
+  }
+
   void cutTriangle(std::int32_t t)
   {
     sides_.clear();
@@ -129,16 +144,16 @@ private:
     all_ = true;
     const Triangle& c = mesh_.triangles[t];
     this->cutPiece({ { c[0], {} }, { c[1], {} }, { c[2], {} } }, {}, 0);
-    if (all_)
-    {
-      return; // wholly inside
-    }
     if (!some_)
     {
-      result_.kept.push_back(t);
-      return;
+      return; // wholly outside
     }
-    this->takeApart(t);
+    result_.gone.push_back(t);
+    if (!all_)
+    {
+      result_.cutTriangles.push_back(t);
+      this->takeApart(t);
+    }
   }
 
   void cutPiece(Piece piece, Index3 cell, int axis)
@@ -422,10 +437,10 @@ private:
 
 } // namespace
 
-CutMesh cutMesh(
-  const TriangleMesh& mesh, const CellSet& cells, const CellGrid& grid, const Progress& progress)
+CutMesh cutMesh(const TriangleMesh& mesh, const std::vector<std::int32_t>& candidates,
+  const CellSet& cells, const CellGrid& grid, const Progress& progress)
 {
-  return Cutter(mesh, cells, grid).run(progress);
+  return cells.empty() ? CutMesh() : Cutter(mesh, cells, grid).run(candidates, progress);
 }
 
 } // namespace hybridtree

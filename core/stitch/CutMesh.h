@@ -41,9 +41,10 @@ struct CutVertex
 /// What of a mesh lies outside of a set of lattice cells, and the line along which it was cut.
 struct CutMesh
 {
-  std::vector<std::int32_t> kept;    ///< triangles that are wholly outside, in order
-  std::vector<Triangle> pieces;      ///< the outer parts of triangles that are cut
-  std::vector<std::int32_t> pieceOf; ///< per piece: the triangle it is a part of
+  std::vector<std::int32_t> gone;         ///< triangles that are inside or cut; rising
+  std::vector<std::int32_t> cutTriangles; ///< of these, those that are cut
+  std::vector<Triangle> pieces;           ///< the outer parts of triangles that are cut
+  std::vector<std::int32_t> pieceOf;      ///< per piece: the triangle it is a part of
   /// Vertex k of pieces, segments and crossings is point k of the mesh, or, from the number of
   /// points on, a cut vertex.
   std::vector<CutVertex> vertices;
@@ -59,9 +60,10 @@ struct CutMesh
 /// complex for every input, whatever rounding does; the pieces outside are then put together again
 /// and triangulated anew. Vertices of neighbouring triangles never differ: no T-junctions.
 ///
+/// \param candidates triangles, rising: all that may touch the cells (TriangleBricks::near()).
 /// \pre cells is sorted and without diagonal contacts (CellSet::fillDiagonals()); mesh has indices
 /// in range. \throws Cancelled.
-CutMesh cutMesh(const TriangleMesh& mesh, const CellSet& cells, const CellGrid& grid,
-  const Progress& progress = Progress::none());
+CutMesh cutMesh(const TriangleMesh& mesh, const std::vector<std::int32_t>& candidates,
+  const CellSet& cells, const CellGrid& grid, const Progress& progress = Progress::none());
 
 } // namespace hybridtree

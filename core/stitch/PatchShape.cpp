@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <unordered_map>
 
 namespace hybridtree
 {
@@ -55,14 +54,13 @@ Vec3 normalOf(const Vec3& a, const Vec3& b, const Vec3& c)
 class ShapeImprover
 {
 public:
-  ShapeImprover(const FieldSource& field, StitchedMesh& stitched, double cellSize)
+  ShapeImprover(
+    const FieldSource& field, TriangleMesh& mesh, std::size_t keptPoints, double cellSize)
     : field_(field)
-    , mesh_(stitched.mesh)
-    , first_(stitched.keptTriangles)
-    , firstOwn_(static_cast<Index>(stitched.keptPoints))
+    , mesh_(mesh)
+    , firstOwn_(static_cast<Index>(keptPoints))
     , cellSize_(cellSize)
-    , triangles_(this->gather())
-    , links_(triangles_, points_.size())
+    , links_(mesh.triangles, mesh.points.size())
     , touched_(links_.triangleCount(), false)
     , waiting_(links_.triangleCount(), true)
   {
@@ -79,29 +77,8 @@ public:
   }
 
 private:
-  /// The new triangles with points of their own numbering.
-  std::vector<Triangle> gather()
-  {
-    std::unordered_map<Index, Index> number;
-    std::vector<Triangle> triangles(
-      mesh_.triangles.begin() + static_cast<std::ptrdiff_t>(first_), mesh_.triangles.end());
-    for (Triangle& triangle : triangles)
-    {
-      for (Index& v : triangle)
-      {
-        const auto [found, isNew] = number.try_emplace(v, static_cast<Index>(points_.size()));
-        if (isNew)
-        {
-          points_.push_back(v);
-        }
-        v = found->second;
-      }
-    }
-    return triangles;
-  }
-
-  const Vec3& point(Index v) const { return mesh_.points[points_[v]]; }
-  bool isOwn(Index v) const { return points_[v] >= firstOwn_; }
+  const Vec3& point(Index v) const { return mesh_.points[v]; }
+  bool isOwn(Index v) const { return v >= firstOwn_; }
 
   double shape(std::size_t t) const
   {
@@ -152,7 +129,7 @@ private:
   bool moveAll()
   {
     std::vector<Index> moving;
-    std::vector<bool> known(points_.size(), false);
+    std::vector<bool> known(mesh_.points.size(), false);
     for (std::size_t t = 0; t < links_.triangleCount(); ++t)
     {
       if (links_.isRemoved(t) || this->shape(t) <= kBadShape)
@@ -174,7 +151,7 @@ private:
     {
       all.push_back(moved.points.size());
       moved.points.push_back(this->middleAround(v));
-      moved.normals.push_back(mesh_.normals[points_[v]]);
+      moved.normals.push_back(mesh_.normals[v]);
     }
     projectPoints(field_, all, kMoveReach * cellSize_, moved);
     bool any = false;
@@ -213,7 +190,7 @@ private:
         sum += this->point(links_.to(h));
         ++count;
       });
-    const Vec3& up = mesh_.normals[points_[v]];
+    const Vec3& up = mesh_.normals[v];
     Vec3 way = sum / count - this->point(v);
     way -= up.dot(way) * up;
     const double length = way.norm();
@@ -233,18 +210,18 @@ private:
         before += badness(this->shape(static_cast<std::size_t>(h / 3)));
         after += badness(shapeOf(target, this->point(b), this->point(c)));
         const Vec3 turned = normalOf(target, this->point(b), this->point(c));
-        const Vec3 around = up + mesh_.normals[points_[b]] + mesh_.normals[points_[c]];
+        const Vec3 around = up + mesh_.normals[b] + mesh_.normals[c];
         allowed = allowed && turned.dot(around) > kLargestTilt * turned.norm() * around.norm();
       });
     if (!allowed || after > before - kWorthIt)
     {
       return false;
     }
-    mesh_.points[points_[v]] = target;
-    mesh_.normals[points_[v]] = up;
+    mesh_.points[v] = target;
+    mesh_.normals[v] = up;
     if (!mesh_.vertexOrigin.empty())
     {
-      mesh_.vertexOrigin[points_[v]] = {};
+      mesh_.vertexOrigin[v] = {};
     }
     links_.forEachLeaving(v,
       [&](Index h)
@@ -338,7 +315,7 @@ private:
         longest = std::max(longest, this->length(leaving));
         before += badness(this->shape(static_cast<std::size_t>(leaving / 3)));
       });
-    const Vec3& up = mesh_.normals[points_[from]];
+    const Vec3& up = mesh_.normals[from];
     allowed = std::abs(up.dot(target - this->point(from))) <= 2.0 * kMostOff * cellSize_;
     const double limit = std::max(kLongestSide * cellSize_, longest);
     links_.forEachLeaving(from,
@@ -370,7 +347,7 @@ private:
 
   Vec3 meanNormal(Index a, Index b, Index c) const
   {
-    return mesh_.normals[points_[a]] + mesh_.normals[points_[b]] + mesh_.normals[points_[c]];
+    return mesh_.normals[a] + mesh_.normals[b] + mesh_.normals[c];
   }
 
   double gainOfFlip(Index h, Index twin) const
@@ -397,8 +374,8 @@ private:
       return 0.0;
     }
     // Slivers have no normal to speak of; the surface has.
-    const Vec3 both = solid ? Vec3(first + second)
-                            : Vec3(this->meanNormal(ia, ib, ic) + mesh_.normals[points_[id]]);
+    const Vec3 both =
+      solid ? Vec3(first + second) : Vec3(this->meanNormal(ia, ib, ic) + mesh_.normals[id]);
     const double cosine = solid ? kLargestTurn : kLargestTilt;
     const auto agrees = [&](const Vec3& made)
     { return made.dot(both) > cosine * made.norm() * both.norm(); };
@@ -413,7 +390,7 @@ private:
   void giveBack()
   {
     std::vector<Index> number(mesh_.points.size() - static_cast<std::size_t>(firstOwn_), -1);
-    std::size_t kept = first_;
+    std::size_t kept = 0;
     for (std::size_t t = 0; t < links_.triangleCount(); ++t)
     {
       if (links_.isRemoved(t))
@@ -421,11 +398,11 @@ private:
         continue;
       }
       const Triangle& c = links_.triangle(t);
-      mesh_.triangles[kept] = { points_[c[0]], points_[c[1]], points_[c[2]] };
-      mesh_.sourceLeaf[kept] = mesh_.sourceLeaf[first_ + t];
+      mesh_.triangles[kept] = c;
+      mesh_.sourceLeaf[kept] = mesh_.sourceLeaf[t];
       if (!mesh_.sourceTriangle.empty())
       {
-        mesh_.sourceTriangle[kept] = touched_[t] ? -1 : mesh_.sourceTriangle[first_ + t];
+        mesh_.sourceTriangle[kept] = touched_[t] ? -1 : mesh_.sourceTriangle[t];
       }
       for (const Index v : mesh_.triangles[kept])
       {
@@ -458,7 +435,7 @@ private:
     mesh_.points.resize(next);
     mesh_.normals.resize(next);
     mesh_.vertexOrigin.resize(mesh_.vertexOrigin.empty() ? 0 : next);
-    for (std::size_t t = first_; t < kept; ++t)
+    for (std::size_t t = 0; t < kept; ++t)
     {
       for (Index& v : mesh_.triangles[t])
       {
@@ -469,11 +446,8 @@ private:
 
   const FieldSource& field_;
   TriangleMesh& mesh_;
-  const std::size_t first_;
   const Index firstOwn_;
   const double cellSize_;
-  std::vector<Index> points_;             ///< of the mesh, by number here
-  const std::vector<Triangle> triangles_; ///< as they were
   MeshLinks links_;
   std::vector<bool> touched_;
   std::vector<bool> waiting_; ///< to be looked at
@@ -481,11 +455,12 @@ private:
 
 } // namespace
 
-void improveShapes(const FieldSource& field, StitchedMesh& stitched, double cellSize)
+void improveShapes(
+  const FieldSource& field, TriangleMesh& mesh, std::size_t keptPoints, double cellSize)
 {
-  if (stitched.keptTriangles < stitched.mesh.triangles.size())
+  if (!mesh.triangles.empty())
   {
-    ShapeImprover(field, stitched, cellSize).run();
+    ShapeImprover(field, mesh, keptPoints, cellSize).run();
   }
 }
 

@@ -1,89 +1,264 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/stitch/Stitch.h"
 
+#include "core/base/DisjointSets.h"
+#include "core/base/Parallel.h"
+#include "core/base/RecentStore.h"
 #include "core/polygonize/MemoryBudget.h"
 #include "core/stitch/Assemble.h"
-#include "core/stitch/CheckPatch.h"
-#include "core/stitch/PatchShape.h"
-#include "core/stitch/ProjectPoints.h"
+#include "core/stitch/CellIslands.h"
+#include "core/stitch/Island.h"
+#include "core/stitch/KeptMesh.h"
 
 #include <algorithm>
+#include <map>
 
 namespace hybridtree
 {
 namespace
 {
 
-constexpr double kReach = 0.5; // cells that a cut vertex may move
+constexpr std::size_t kRememberedBytes = std::size_t(256) << 20;
 
-/// Where the gradient gives no normal, the triangles do.
-void mendNormals(TriangleMesh& mesh, std::size_t firstTriangle)
+// Around the cells, within which all that an island asks of the field lies.
+constexpr double kMargin = 3.0;
+
+// As in makePatch(), over all islands.
+constexpr double kBytesPerBrick = 20000.0;
+
+/// All that an island depends on.
+struct IslandKey
 {
-  std::vector<std::int32_t> missing;
-  std::vector<Vec3> sums;
-  for (std::size_t t = firstTriangle; t < mesh.triangles.size(); ++t)
+  CellGrid grid;
+  std::vector<CellSet::Brick> cells;
+  std::vector<Dependency> dependencies; ///< of the field, then the parts
+
+  bool operator==(const IslandKey& other) const
   {
-    for (const std::int32_t v : mesh.triangles[t])
+    return grid == other.grid && cells == other.cells && dependencies == other.dependencies;
+  }
+
+  bool isExpired() const { return anyExpired(dependencies); }
+
+  std::uint64_t hash() const
+  {
+    HashSum sum;
+    for (const CellSet::Brick& brick : cells)
     {
-      if (mesh.normals[v].isZero(0.0))
+      sum.add(Index3Hash()(brick.index));
+      for (const std::uint64_t word : brick.bits)
       {
-        missing.push_back(v);
-        sums.push_back(areaNormal(mesh, t));
+        sum.add(word);
       }
     }
+    for (const Dependency& dependency : dependencies)
+    {
+      dependency.addTo(sum);
+    }
+    return sum.value();
   }
-  for (std::size_t k = 0; k < missing.size(); ++k)
-  {
-    mesh.normals[missing[k]] += sums[k];
-  }
-  std::sort(missing.begin(), missing.end());
-  missing.erase(std::unique(missing.begin(), missing.end()), missing.end());
-  for (const std::int32_t v : missing)
-  {
-    mesh.normals[v].stableNormalize();
-  }
+};
+
+using IslandStore = RecentStore<IslandKey, Island>;
+
+IslandStore& store()
+{
+  static IslandStore* const instance = new IslandStore(kRememberedBytes); // outlives all statics
+  return *instance;
 }
 
-/// New points that are not yet on the surface: the unsettled ones of the patch, and cut vertices of
-/// parts whose triangles are chords of it. On mesh leaves those are where they belong.
-std::vector<std::size_t> pointsToMove(const std::vector<KeptPart>& parts,
-  const std::vector<CutMesh>& cuts, const Patch& patch, const StitchedMesh& stitched)
+/// One island on its way from cells to triangles.
+struct Work
 {
-  std::vector<std::size_t> points;
-  std::size_t next = stitched.keptPoints;
-  for (std::size_t p = 0; p < parts.size(); ++p)
+  CellSet cells;
+  Box3 box; ///< of the cells, and a margin
+  std::vector<std::int32_t> numbers;
+  std::vector<KeptPart> parts; ///< those of these numbers, which are near
+  IslandKey key;
+  FieldSourcePtr field;
+  std::optional<IslandCut> cut;
+  std::shared_ptr<const Island> island;
+
+  const std::vector<PartPoint>& rim() const { return island ? island->rim : cut->rim; }
+};
+
+class Stitcher
+{
+public:
+  Stitcher(const IslandField& field, const std::vector<KeptPart>& parts,
+    const StitchOptions& options, const Progress& progress)
+    : field_(field), parts_(parts), options_(options), progress_(progress)
   {
-    for (std::size_t k = 0; k < cuts[p].vertices.size(); ++k, ++next)
+    for (const KeptPart& part : parts)
     {
-      if (!parts[p].isLeaf)
-      {
-        points.push_back(next);
-      }
+      bounds_.push_back(KeptMesh::of(part.mesh)->bounds());
     }
   }
-  for (const std::int32_t v : patch.unsettled)
-  {
-    points.push_back(stitched.keptPoints + static_cast<std::size_t>(v));
-  }
-  return points;
-}
 
-/// Cells in which something is wrong with the new triangles.
-std::vector<Index3> faults(const StitchedMesh& stitched, const CellGrid& grid)
-{
-  const TriangleMesh& mesh = stitched.mesh;
-  std::vector<Index3> cells;
-  for (const std::int32_t v : faultyPoints(mesh, stitched.keptTriangles))
+  /// Islands over all cells, which may have faults.
+  void make(const CellSet& cells)
   {
-    cells.push_back(grid.cellAt(mesh.points[v]));
+    const auto bricks = static_cast<double>(cells.bricks().size());
+    MemoryBudget{ options_.maxBytes, options_.grid.cellSize }.check(
+      bricks * kBytesPerBrick, bricks * kBrickPoints);
+    works_.clear();
+    for (CellSet& island : islandsOf(cells))
+    {
+      works_.push_back(this->prepare(std::move(island)));
+    }
+    this->forEachWork(
+      [this](Work& work)
+      {
+        work.island = store().find(work.key);
+        if (!work.island)
+        {
+          work.cut = cutIsland(work.parts, work.cells, options_.grid, progress_);
+        }
+      });
+    this->uniteTouching();
+    remembered_ = made_ ? remembered_
+                        : static_cast<std::size_t>(std::count_if(works_.begin(), works_.end(),
+                            [](const Work& work) { return work.island != nullptr; }));
+    made_ = true;
+    this->forEachWork([this](Work& work) { this->finish(work); });
   }
-  for (const std::size_t t : turnedTriangles(mesh, stitched.keptTriangles))
+
+  std::vector<Index3> faults() const
   {
-    const Triangle& c = mesh.triangles[t];
-    cells.push_back(grid.cellAt((mesh.points[c[0]] + mesh.points[c[1]] + mesh.points[c[2]]) / 3.0));
+    std::vector<Index3> faults;
+    for (const Work& work : works_)
+    {
+      faults.insert(faults.end(), work.island->faults.begin(), work.island->faults.end());
+    }
+    return faults;
   }
-  return cells;
-}
+
+  StitchedMesh assembled() const
+  {
+    std::vector<PlacedIsland> islands;
+    for (const Work& work : works_)
+    {
+      islands.push_back({ work.island, work.numbers });
+    }
+    StitchedMesh result = assemble(parts_, islands);
+    result.islands = works_.size();
+    result.remembered = remembered_;
+    return result;
+  }
+
+private:
+  template <typename Body>
+  void forEachWork(Body&& body)
+  {
+    parallelFor(works_.size(), 1,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t k = begin; k < end; ++k)
+        {
+          progress_.check();
+          body(works_[k]);
+        }
+      });
+  }
+
+  Work prepare(CellSet cells) const
+  {
+    Work work;
+    for (const CellSet::Brick& brick : cells.bricks())
+    {
+      const Index3 low{ kBrickSide * brick.index[0], kBrickSide * brick.index[1],
+        kBrickSide * brick.index[2] };
+      work.box.extend(options_.grid.boxOf(low, kBrickSide, kMargin));
+    }
+    IslandField::Near near = field_.near(work.box);
+    work.field = std::move(near.source);
+    work.key = { options_.grid, cells.bricks(), std::move(near.dependencies) };
+    for (std::size_t p = 0; p < parts_.size(); ++p)
+    {
+      if (bounds_[p].intersects(work.box))
+      {
+        work.numbers.push_back(static_cast<std::int32_t>(p));
+        work.parts.push_back(parts_[p]);
+        work.key.dependencies.emplace_back(
+          parts_[p].mesh, parts_[p].isLeaf ? 1.0 : 0.0, parts_[p].firstLeaf);
+      }
+    }
+    work.cells = std::move(cells);
+    return work;
+  }
+
+  /// Islands that cut triangles at a common point become one.
+  void uniteTouching()
+  {
+    std::map<PartPoint, std::size_t> first;
+    DisjointSets sets(works_.size());
+    bool any = false;
+    for (std::size_t k = 0; k < works_.size(); ++k)
+    {
+      for (const PartPoint& at : works_[k].rim())
+      {
+        const PartPoint known{ works_[k].numbers[at.part], at.point };
+        const auto [found, isNew] = first.emplace(known, k);
+        any = any || (!isNew && found->second != k);
+        sets.join(static_cast<std::uint32_t>(found->second), static_cast<std::uint32_t>(k));
+      }
+    }
+    if (!any)
+    {
+      return;
+    }
+    std::vector<Work> united;
+    std::vector<std::size_t> place(works_.size());
+    std::vector<CellSet> cells(works_.size());
+    for (std::size_t k = 0; k < works_.size(); ++k)
+    {
+      cells[sets.find(static_cast<std::uint32_t>(k))].insert(works_[k].cells);
+    }
+    for (std::size_t k = 0; k < works_.size(); ++k)
+    {
+      if (cells[k].empty())
+      {
+        continue;
+      }
+      if (cells[k].size() == works_[k].cells.size())
+      {
+        united.push_back(std::move(works_[k]));
+        continue;
+      }
+      cells[k].sort();
+      united.push_back(this->prepare(std::move(cells[k])));
+      united.back().island = store().find(united.back().key);
+    }
+    works_ = std::move(united);
+  }
+
+  void finish(Work& work) const
+  {
+    if (work.island)
+    {
+      return;
+    }
+    if (!work.cut)
+    {
+      work.cut = cutIsland(work.parts, work.cells, options_.grid, progress_);
+    }
+    auto island = std::make_shared<const Island>(makeIsland(
+      field_, *work.field, work.parts, std::move(*work.cut), work.cells, options_, progress_));
+    const std::size_t bytes = island->bytes() + work.key.cells.size() * sizeof(CellSet::Brick) +
+      work.key.dependencies.size() * sizeof(Dependency);
+    store().keep(work.key, island, bytes);
+    work.island = std::move(island);
+  }
+
+  const IslandField& field_;
+  const std::vector<KeptPart>& parts_;
+  const StitchOptions& options_;
+  const Progress& progress_;
+  std::vector<Box3> bounds_; ///< of the parts
+  std::vector<Work> works_;
+  bool made_ = false; ///< once; what is then remembered was made here
+  std::size_t remembered_ = 0;
+};
 
 /// Marks cells and what is around them, the further the later in the rounds.
 void markAround(const std::vector<Index3>& faults, int reach, CellSet& cells)
@@ -102,37 +277,30 @@ void markAround(const std::vector<Index3>& faults, int reach, CellSet& cells)
 
 } // namespace
 
-std::optional<StitchedMesh> stitch(const FieldSource& field, const std::vector<KeptPart>& parts,
+std::optional<StitchedMesh> stitch(const IslandField& field, const std::vector<KeptPart>& parts,
   CellSet cells, const StitchOptions& options, const Progress& progress)
 {
-  const MemoryBudget budget{ options.maxBytes, options.grid.cellSize };
+  Stitcher stitcher(field, parts, options, progress);
   for (int round = 1; round <= options.maxRounds; ++round)
   {
-    const ProgressPart part(progress, double(round - 1) / round, 1.0);
     cells.fillDiagonals();
-    std::vector<CutMesh> cuts;
-    for (const KeptPart& kept : parts)
+    stitcher.make(cells);
+    const std::vector<Index3> faults = stitcher.faults();
+    progress.report(0.9);
+    if (faults.empty())
     {
-      cuts.push_back(cutMesh(*kept.mesh, cells, options.grid, progress));
-    }
-    const JointBorder joint = jointBorder(parts, cuts);
-    const Patch patch =
-      makePatch(field, cells, options.grid, joint.border, budget, ProgressPart(part, 0.1, 0.8));
-    StitchedMesh stitched = assemble(parts, cuts, patch);
-    stitched.rounds = round;
-    projectPoints(field, pointsToMove(parts, cuts, patch, stitched), kReach * options.grid.cellSize,
-      stitched.mesh);
-    mendNormals(stitched.mesh, stitched.keptTriangles);
-    improveShapes(field, stitched, options.grid.cellSize);
-    std::vector<Index3> wrong = faults(stitched, options.grid);
-    wrong.insert(wrong.end(), patch.misfits.begin(), patch.misfits.end());
-    if (wrong.empty())
-    {
+      StitchedMesh stitched = stitcher.assembled();
+      stitched.rounds = round;
       return stitched;
     }
-    markAround(wrong, round, cells);
+    markAround(faults, round, cells);
   }
   return std::nullopt;
+}
+
+void forgetIslands()
+{
+  store().clear();
 }
 
 } // namespace hybridtree

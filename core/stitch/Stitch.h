@@ -3,9 +3,9 @@
 
 #include "core/base/Progress.h"
 #include "core/mesh/TriangleMesh.h"
-#include "core/polygonize/FieldSource.h"
 #include "core/stitch/CellGrid.h"
 #include "core/stitch/CellSet.h"
+#include "core/stitch/IslandField.h"
 
 #include <cstddef>
 #include <optional>
@@ -37,11 +37,13 @@ struct StitchedMesh
 {
   TriangleMesh mesh;
   /// Triangles before this are those of the parts: the same points, normals and origins, bit for
-  /// bit. The rest is new: what is left of cut triangles, and the patch.
+  /// bit. The rest is new: what is left of cut triangles, and the patches.
   std::size_t keptTriangles = 0;
   std::size_t keptPoints = 0;   ///< points before this are those of the parts
   std::size_t samplePoints = 0; ///< found on the surface by marching cubes
   std::size_t cutTriangles = 0; ///< of the parts
+  std::size_t islands = 0;      ///< parts of the surface that are made on their own
+  std::size_t remembered = 0;   ///< of these, those that had been made before
   int rounds = 1;               ///< more than 1: cells were added
 };
 
@@ -49,18 +51,19 @@ struct StitchedMesh
 /// ([HT] 5.2.1).
 ///
 /// Outside of the marked cells the parts' triangles are taken over; those that the border of the
-/// marked cells cuts are cut exactly there, and inside the field is polygonized up to that cut
-/// (Patch.h). Patch and cut pieces are then given a better shape (PatchShape.h), and all is
-/// checked: closed, oriented, 2-manifold, no new triangle turned against the gradient. Where
-/// something is wrong, the cells there and around them are marked and all is done again.
-///
-/// Triangles have sourceLeaf and the rest as far as the parts have it; -1 in the patch, which the
-/// caller may fill in.
+/// marked cells cuts are cut exactly there, and inside the field is polygonized up to that cut.
+/// Every island of the marked cells is made and checked on its own (Island.h), and remembered: one
+/// of the same cells, parts and dependencies of the field (IslandField.h) is taken as it is. So an
+/// edit costs what it changes, and the copy of the rest; the result is the same, bit for bit. Where
+/// something is wrong in an island the cells there and around them are marked and it is done again.
 ///
 /// \pre cells is sorted; where no cell is marked f = T on the parts, and nowhere else.
 /// \return nothing when it does not come right in options.maxRounds.
 /// \throws TooLarge, Cancelled.
-std::optional<StitchedMesh> stitch(const FieldSource& field, const std::vector<KeptPart>& parts,
+std::optional<StitchedMesh> stitch(const IslandField& field, const std::vector<KeptPart>& parts,
   CellSet cells, const StitchOptions& options, const Progress& progress = Progress::none());
+
+/// Forgets all islands; for tests and benchmarks.
+void forgetIslands();
 
 } // namespace hybridtree

@@ -267,6 +267,76 @@ TEST(BlendMesh, LocalBlendsKeepTheUnion)
   EXPECT_LE(hausdorff(local->mesh(edge), global->mesh(edge)), 0.5 * edge);
 }
 
+void expectSame(const TriangleMesh& a, const TriangleMesh& b)
+{
+  EXPECT_EQ(a.points, b.points);
+  EXPECT_EQ(a.triangles, b.triangles);
+  EXPECT_EQ(a.normals, b.normals);
+  EXPECT_EQ(a.sourceLeaf, b.sourceLeaf);
+  EXPECT_EQ(a.sourceTriangle, b.sourceTriangle);
+  ASSERT_EQ(a.vertexOrigin.size(), b.vertexOrigin.size());
+  for (std::size_t v = 0; v < a.vertexOrigin.size(); ++v)
+  {
+    const VertexOrigin& first = a.vertexOrigin[v];
+    const VertexOrigin& second = b.vertexOrigin[v];
+    ASSERT_TRUE(first.leaf == second.leaf && first.triangle == second.triangle &&
+      first.u == second.u && first.v == second.v)
+      << v;
+  }
+}
+
+// What earlier meshes have left behind saves work and changes nothing: one primitive moves, grows,
+// goes and comes back, over meshes, skeletons and what carves.
+TEST(BlendMesh, EditsGiveWhatAFreshStartGives)
+{
+  std::size_t taken = 0;
+  const auto bump = [](Random& random)
+  {
+    const double radius = random.uniform(0.02, 0.04);
+    return ball(0.6 * random.direction(), radius, 2.0 * radius, random.chance(0.3));
+  };
+  for (std::uint64_t seed = 0; seed < 6; ++seed)
+  {
+    SCOPED_TRACE(seed);
+    Random random(700 + seed);
+    std::vector<NodePtr> children{ meshLeaf(bumpySphere(0.6, seed % 3 == 0 ? 2 : 4), 0.1) };
+    for (int k = 0; k < 6; ++k)
+    {
+      children.push_back(bump(random));
+    }
+    children.push_back(limb(Vec3(0.7, 0, 0), Vec3(1.2, 0.3, 0), 0.1, 0.2));
+    children.push_back(randomTree(900 + seed, 1));
+    for (int edit = 0; edit < 5; ++edit)
+    {
+      SCOPED_TRACE(edit);
+      children[static_cast<std::size_t>(random.integer(1, 6))] = bump(random);
+      if (edit == 1)
+      {
+        children.pop_back();
+      }
+      const Made after = make(children, BlendMethod::PrimitiveBased, 0.05);
+      taken += after.report.rememberedIslands;
+      forgetBlends();
+      const Made fresh = make(children, BlendMethod::PrimitiveBased, 0.05);
+      EXPECT_EQ(fresh.report.rememberedIslands, 0u);
+      expectSame(*after.mesh, *fresh.mesh);
+    }
+  }
+  EXPECT_GT(taken, 30u);
+}
+
+// A primitive that is gone may have left its address to the next one.
+TEST(BlendMesh, NothingIsTakenFromWhatIsGone)
+{
+  const NodePtr body = meshLeaf(icosphere(0.6, 3), 0.1);
+  for (int k = 0; k < 40; ++k)
+  {
+    const auto bump = [&] { return ball(Vec3(0.6, 0, 0), 0.05 + 0.001 * k, 0.1); };
+    const Made made = make({ body, bump() }, BlendMethod::PrimitiveBased, 0.05);
+    EXPECT_EQ(made.report.rememberedIslands, 0u);
+  }
+}
+
 TEST(BlendMesh, IsTheSameForAnyNumberOfThreads)
 {
   const std::vector<NodePtr> children{ meshLeaf(bumpySphere(0.6, 3), 0.3),
@@ -274,11 +344,10 @@ TEST(BlendMesh, IsTheSameForAnyNumberOfThreads)
   setThreadCount(1);
   const Made one = make(children, BlendMethod::PrimitiveBased, 0.04);
   setThreadCount(3);
+  forgetBlends();
   const Made three = make(children, BlendMethod::PrimitiveBased, 0.04);
   setThreadCount(0);
-  EXPECT_EQ(one.mesh->points, three.mesh->points);
-  EXPECT_EQ(one.mesh->triangles, three.mesh->triangles);
-  EXPECT_EQ(one.mesh->normals, three.mesh->normals);
+  expectSame(*one.mesh, *three.mesh);
 }
 
 } // namespace

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/stitch/CutMesh.h"
+#include "core/stitch/KeptMesh.h"
 
 #include "tests/support/Random.h"
 #include "tests/support/TestMeshes.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <set>
 
@@ -32,6 +34,24 @@ CellSet randomCells(Random& random, int reach, double share)
   }
   cells.fillDiagonals();
   return cells;
+}
+
+CutMesh cutAll(const TriangleMesh& mesh, const CellSet& cells, const CellGrid& grid)
+{
+  return cutMesh(mesh, TriangleBricks(mesh, grid).near(cells), cells, grid);
+}
+
+std::vector<std::int32_t> keptTriangles(const TriangleMesh& mesh, const CutMesh& cut)
+{
+  std::vector<std::int32_t> kept;
+  for (std::int32_t t = 0; t < static_cast<std::int32_t>(mesh.triangles.size()); ++t)
+  {
+    if (!std::binary_search(cut.gone.begin(), cut.gone.end(), t))
+    {
+      kept.push_back(t);
+    }
+  }
+  return kept;
 }
 
 Vec3 pointOf(const TriangleMesh& mesh, const CutMesh& cut, std::int32_t v)
@@ -72,7 +92,7 @@ TEST(CutMesh, LeavesNoCrackAndNoTJunction)
     for (const double share : { 0.02, 0.3, 0.5, 0.9 })
     {
       const CellSet cells = randomCells(random, 9, share);
-      const CutMesh cut = cutMesh(example.mesh, cells, CellGrid::ofLevel(example.cellSize, 2));
+      const CutMesh cut = cutAll(example.mesh, cells, CellGrid::ofLevel(example.cellSize, 2));
       std::map<std::pair<std::int32_t, std::int32_t>, int> sides;
       const auto add = [&](const Triangle& c)
       {
@@ -81,7 +101,7 @@ TEST(CutMesh, LeavesNoCrackAndNoTJunction)
           ++sides[{ c[k], c[(k + 1) % 3] }];
         }
       };
-      for (const std::int32_t t : cut.kept)
+      for (const std::int32_t t : keptTriangles(example.mesh, cut))
       {
         add(example.mesh.triangles[t]);
       }
@@ -119,11 +139,13 @@ TEST(CutMesh, KeepsExactlyWhatIsOutside)
   for (const CutCase& example : cutCases())
   {
     const CellSet cells = randomCells(random, 9, 0.4);
-    const CutMesh cut = cutMesh(example.mesh, cells, CellGrid::ofLevel(example.cellSize, 2));
+    const CutMesh cut = cutAll(example.mesh, cells, CellGrid::ofLevel(example.cellSize, 2));
     const CellGrid grid = CellGrid::ofLevel(example.cellSize, 2);
     const auto isMarked = [&](const Vec3& p) { return cells.contains(grid.cellAt(p)); };
-    const std::set<std::int32_t> kept(cut.kept.begin(), cut.kept.end());
-    EXPECT_EQ(kept.size(), cut.kept.size());
+    EXPECT_TRUE(std::is_sorted(cut.gone.begin(), cut.gone.end()));
+    const std::vector<std::int32_t> all = keptTriangles(example.mesh, cut);
+    const std::set<std::int32_t> kept(all.begin(), all.end());
+    EXPECT_EQ(kept.size() + cut.gone.size(), example.mesh.triangles.size());
     std::vector<double> outside(example.mesh.triangles.size(), 0.0);
     for (std::size_t k = 0; k < cut.pieces.size(); ++k)
     {
@@ -171,9 +193,9 @@ TEST(CutMesh, KeepsExactlyWhatIsOutside)
 TEST(CutMesh, WithoutCellsAllIsKept)
 {
   const TriangleMesh mesh = torus(0.6, 0.25, 12, 8);
-  const CutMesh cut = cutMesh(mesh, {}, { 0.1, Vec3::Zero() });
-  EXPECT_EQ(cut.kept.size(), mesh.triangles.size());
-  EXPECT_TRUE(cut.pieces.empty() && cut.segments.empty() && cut.vertices.empty());
+  const CutMesh cut = cutAll(mesh, {}, { 0.1, Vec3::Zero() });
+  EXPECT_TRUE(
+    cut.gone.empty() && cut.pieces.empty() && cut.segments.empty() && cut.vertices.empty());
 }
 
 } // namespace
