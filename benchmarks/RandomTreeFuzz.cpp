@@ -89,8 +89,9 @@ public:
     {
       std::printf("%-24s %10d %12d\n", kFaultNames[fault], atFirst_[fault], atLast_[fault]);
     }
-    std::printf("good at the first edge length %d, at a half %d, at a quarter %d, never %d\n",
-      goodAfter_[0], goodAfter_[1], goodAfter_[2], bad_);
+    std::printf("good at the first edge length %d, at a half %d, at a quarter %d, at an eighth %d, "
+                "never %d\n",
+      goodAfter_[0], goodAfter_[1], goodAfter_[2], goodAfter_[3], bad_);
   }
 
 private:
@@ -98,7 +99,7 @@ private:
   int meshes_ = 0;
   int warned_ = 0;
   int bad_ = 0;
-  std::array<int, 3> goodAfter_{};
+  std::array<int, 4> goodAfter_{};
   std::array<int, kFaults> atFirst_{};
   std::array<int, kFaults> atLast_{};
 };

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkHybridTreeBoolean.h"
 
-#include "core/nodes/Boolean.h"
+#include "core/nodes/BooleanNest.h"
+#include "vtkAlgorithm.h"
 #include "vtkCellArray.h"
 #include "vtkHybridTreeFormulation.h"
+#include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
@@ -13,7 +15,7 @@
 vtkStandardNewMacro(vtkHybridTreeBoolean);
 
 //------------------------------------------------------------------------------
-vtkHybridTreeBoolean::vtkHybridTreeBoolean()
+vtkHybridTreeBoolean::vtkHybridTreeBoolean() : Nest(std::make_unique<hybridtree::BooleanNest>())
 {
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(2);
@@ -22,10 +24,28 @@ vtkHybridTreeBoolean::vtkHybridTreeBoolean()
 vtkHybridTreeBoolean::~vtkHybridTreeBoolean() = default;
 
 //------------------------------------------------------------------------------
+void vtkHybridTreeBoolean::RemoveAllB()
+{
+  this->SetInputConnection(1, nullptr);
+}
+
+//------------------------------------------------------------------------------
 vtkHybridTreeBoolean::NodePtr vtkHybridTreeBoolean::MakeNode(const Operands& operands)
 {
-  return hybridtree::makeBoolean(static_cast<hybridtree::BooleanOperation>(this->Operation),
-    operands[0].front(), operands[1].front(), static_cast<hybridtree::BooleanForm>(this->Form));
+  std::vector<NodePtr> all = operands[0];
+  all.insert(all.end(), operands[1].begin(), operands[1].end());
+  return this->Nest->make(static_cast<hybridtree::BooleanOperation>(this->Operation), all,
+    static_cast<hybridtree::BooleanForm>(this->Form));
+}
+
+//------------------------------------------------------------------------------
+int vtkHybridTreeBoolean::FillInputPortInformation(int port, vtkInformation* info)
+{
+  if (port == 1)
+  {
+    info->Set(vtkAlgorithm::INPUT_IS_REPEATABLE(), 1);
+  }
+  return this->Superclass::FillInputPortInformation(port, info);
 }
 
 //------------------------------------------------------------------------------

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkHybridTreeBoolean
- * @brief   union, intersection or difference of two nodes
+ * @brief   union, intersection or difference of nodes
  *
- * A is port 0, B is port 1 ([HT] 4.4). Disjoint, touching and equal operands are answered, with
- * an empty output where nothing is left. The meshes of both are cut ([HT] 5.3): triangles away from
- * the cut stay as they are, and the edges of the cut are sharp.
+ * A is port 0, B is port 1 ([HT] 4.4), which takes any number of connections: all are united with
+ * A, intersected with it, or cut from it. Disjoint, touching and equal operands are answered, with
+ * an empty output where nothing is left. Meshes are cut ([HT] 5.3): triangles away from the cut
+ * stay as they are, and the edges of the cut are sharp.
  *
- * Output port 1 has the curves in which the surfaces of A and B cross, as polylines.
+ * Output port 1 has the curves in which the surfaces of the operands cross, as polylines; those of
+ * operands that are Booleans too, as far as they are still there.
  */
 
 #ifndef vtkHybridTreeBoolean_h
@@ -15,6 +17,11 @@
 
 #include "HybridTreeFiltersModule.h" // for export macro
 #include "vtkHybridTreeAlgorithm.h"
+
+namespace hybridtree
+{
+class BooleanNest;
+}
 
 class HYBRIDTREEFILTERS_EXPORT vtkHybridTreeBoolean : public vtkHybridTreeAlgorithm
 {
@@ -40,8 +47,8 @@ public:
 
   ///@{
   /**
-   * UNION (0, default): what is in A or B. INTERSECTION (1): what is in both. DIFFERENCE (2):
-   * what is in A and not in B.
+   * UNION (0, default): what is in A or any B. INTERSECTION (1): what is in all. DIFFERENCE (2):
+   * what is in A and in no B.
    */
   vtkSetMacro(Operation, int);
   vtkGetMacro(Operation, int);
@@ -57,6 +64,11 @@ public:
   vtkGetMacro(Form, int);
   ///@}
 
+  /**
+   * Takes all connections from B: ParaView does so before it sets them anew.
+   */
+  void RemoveAllB();
+
 protected:
   vtkHybridTreeBoolean();
   ~vtkHybridTreeBoolean() override;
@@ -66,12 +78,18 @@ protected:
   void FillOtherOutputs(vtkInformationVector* outputs) override;
 #endif
 
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+
   int Operation = UNION;
   int Form = AUTOMATIC;
 
 private:
   vtkHybridTreeBoolean(const vtkHybridTreeBoolean&) = delete;
   void operator=(const vtkHybridTreeBoolean&) = delete;
+
+#ifndef __VTK_WRAP__
+  std::unique_ptr<hybridtree::BooleanNest> Nest; // what changed operands leave as it is
+#endif
 };
 
 #endif

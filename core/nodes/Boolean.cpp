@@ -178,12 +178,12 @@ public:
     return warnings_;
   }
 
-  std::vector<std::vector<Vec3>> curves(double edgeLength) const
+  PointChains curves(double edgeLength) const
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     const auto found = std::find_if(
       curves_.rbegin(), curves_.rend(), [&](const auto& kept) { return kept.first == edgeLength; });
-    return found != curves_.rend() ? found->second : std::vector<std::vector<Vec3>>();
+    return found != curves_.rend() ? found->second : PointChains();
   }
 
   const char* kind() const override { return "boolean"; }
@@ -333,9 +333,8 @@ private:
   Box3 surface_;
   bool negative_ = false;
   mutable std::mutex mutex_;
-  mutable std::vector<std::string> warnings_; ///< of the last mesh made
-  mutable std::vector<std::pair<double, std::vector<std::vector<Vec3>>>>
-    curves_; ///< by edge length
+  mutable std::vector<std::string> warnings_;                  ///< of the last mesh made
+  mutable std::vector<std::pair<double, PointChains>> curves_; ///< by edge length
 };
 
 } // namespace
@@ -352,8 +351,7 @@ NodePtr makeBoolean(BooleanOperation operation, NodePtr a, NodePtr b, BooleanFor
   return std::make_shared<Boolean>(operation, std::move(a), std::move(b), form);
 }
 
-std::vector<std::vector<Vec3>> intersectionCurves(
-  const Node& node, double edgeLength, const Progress& progress)
+PointChains curvesOf(const Node& node, double edgeLength, const Progress& progress)
 {
   const auto* boolean = dynamic_cast<const Boolean*>(&node);
   if (!boolean)
@@ -362,6 +360,27 @@ std::vector<std::vector<Vec3>> intersectionCurves(
   }
   node.mesh(edgeLength, progress);
   return boolean->curves(edgeLength > 0.0 ? edgeLength : node.defaultEdgeLength());
+}
+
+std::vector<std::vector<Vec3>> intersectionCurves(
+  const Node& node, double edgeLength, const Progress& progress)
+{
+  std::vector<std::vector<Vec3>> curves;
+  const PointChains chains = curvesOf(node, edgeLength, progress);
+  if (chains.empty())
+  {
+    return curves;
+  }
+  const MeshPtr mesh = node.mesh(edgeLength, progress);
+  for (const std::vector<std::int32_t>& chain : chains)
+  {
+    std::vector<Vec3>& points = curves.emplace_back();
+    for (const std::int32_t point : chain)
+    {
+      points.push_back(mesh->points[std::size_t(point)]);
+    }
+  }
+  return curves;
 }
 
 NodePtr booleanFromParameters(

@@ -22,10 +22,13 @@ namespace hybridtree
 NodePtr makeBoolean(
   BooleanOperation operation, NodePtr a, NodePtr b, BooleanForm form = BooleanForm::Automatic);
 
-/// Where the surfaces of a Boolean's children cross, as chains of points of its mesh; closed ones
-/// end where they begin. Makes the mesh if need be. Empty for any other kind of node, and where the
-/// mesh is that of the lattice.
-/// \throws as Node::mesh().
+/// Where the surfaces of a Boolean's operands cross, as chains of points of its mesh; closed ones
+/// end where they begin. Operands that are Booleans themselves add what is left of theirs. Makes
+/// the mesh if need be. Empty for any other kind of node, and where the mesh is that of the
+/// lattice. \throws as Node::mesh().
+std::vector<std::vector<std::int32_t>> curvesOf(
+  const Node& node, double edgeLength = 0.0, const Progress& progress = Progress::none());
+/// Their points.
 std::vector<std::vector<Vec3>> intersectionCurves(
   const Node& node, double edgeLength = 0.0, const Progress& progress = Progress::none());
 

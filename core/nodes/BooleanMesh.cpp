@@ -4,6 +4,7 @@
 #include "core/base/Error.h"
 #include "core/boolean/MeshBoolean.h"
 #include "core/boolean/OperandCache.h"
+#include "core/nodes/Boolean.h"
 #include "core/nodes/CutProjection.h"
 #include "core/nodes/LeafPlace.h"
 
@@ -303,13 +304,12 @@ BooleanMesh booleanMesh(BooleanOperation operation, const Node& a, const Node& b
   projectCut(operation, { &a, &b }, { meshA.get(), meshB.get() }, edgeLength, result);
   Attributes({ meshA.get(), meshB.get() }, a, b, operation == BooleanOperation::Difference, result)
     .fill();
-  for (const std::vector<std::int32_t>& curve : result.curves)
+  made.curves = result.curves;
+  for (int operand = 0; operand < 2; ++operand)
   {
-    std::vector<Vec3>& points = made.curves.emplace_back();
-    for (const std::int32_t point : curve)
-    {
-      points.push_back(result.mesh.points[std::size_t(point)]);
-    }
+    const PointChains carried = carriedCurves(curvesOf(operand == 0 ? a : b, edgeLength, progress),
+      (operand == 0 ? meshA : meshB)->points.size(), operand, result);
+    made.curves.insert(made.curves.end(), carried.begin(), carried.end());
   }
   made.mesh = std::move(result.mesh);
   return made;

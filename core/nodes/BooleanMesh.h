@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/nodes/BooleanField.h"
+#include "core/nodes/CarriedCurves.h"
 #include "core/nodes/Node.h"
 
 #include <optional>
@@ -16,8 +17,8 @@ struct BooleanMesh
 {
   /// Empty where the meshes cannot be cut: one crosses itself at the cut.
   std::optional<TriangleMesh> mesh;
-  /// Where the surfaces cross; closed curves end where they begin.
-  std::vector<std::vector<Vec3>> curves;
+  /// Where the surfaces cross, and what is left of such curves of operands that are Booleans.
+  PointChains curves;
   std::vector<std::string> warnings;
 };
 

@@ -260,6 +260,31 @@ TEST(Nodes, BooleanShowsTheCurvesOfTheCut)
   }
 }
 
+/// Five balls in a row, one after the other in B.
+TEST(Nodes, BooleanTakesAnyNumberOfOperands)
+{
+  vtkNew<vtkHybridTreeBoolean> all;
+  all->SetEdgeLength(0.05);
+  all->SetInputConnection(0, ball(0.0)->GetOutputPort());
+  for (int k = 1; k < 5; ++k)
+  {
+    all->AddInputConnection(1, ball(0.6 * k)->GetOutputPort());
+  }
+  all->Update();
+  const double pi = std::acos(-1.0);
+  const double whole = 4.0 / 3.0 * pi * 0.125;
+  const double lens = pi / 12.0 * (4.0 * 0.5 + 0.6) * (2.0 * 0.5 - 0.6) * (2.0 * 0.5 - 0.6);
+  EXPECT_NEAR(signedVolume(trianglesOf(all->GetOutput())), 5.0 * whole - 4.0 * lens, 0.02 * whole);
+  EXPECT_EQ(all->GetTree()->leafCount(), 5);
+  EXPECT_EQ(all->GetOutput(1)->GetNumberOfLines(), 4) << "a circle between each two";
+  all->SetOperation(vtkHybridTreeBoolean::DIFFERENCE);
+  all->Update();
+  EXPECT_NEAR(signedVolume(trianglesOf(all->GetOutput())), whole - lens, 0.02 * whole);
+  all->SetOperation(vtkHybridTreeBoolean::INTERSECTION);
+  all->Update();
+  EXPECT_EQ(all->GetOutput()->GetNumberOfPoints(), 0);
+}
+
 /// The map of an affine filter applied to a ball's centre is where the image's field peaks.
 TEST(Nodes, AffineMapsInParaViewsOrder)
 {

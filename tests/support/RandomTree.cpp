@@ -32,7 +32,10 @@ namespace
 class Grower
 {
 public:
-  Grower(std::uint64_t seed, const BlendOptions& blends) : random_(seed), blends_(blends) {}
+  Grower(std::uint64_t seed, const BlendOptions& blends, double deformedEdge)
+    : random_(seed), blends_(blends), deformedEdge_(deformedEdge)
+  {
+  }
 
   NodePtr grow(int depth)
   {
@@ -254,18 +257,19 @@ private:
       }
     }
     const FieldFrom from = random_.chance(0.7) ? FieldFrom::InverseMap : FieldFrom::DeformedMesh;
-    return makeFreeForm(std::move(child), lattice, from, 0.15);
+    return makeFreeForm(std::move(child), lattice, from, deformedEdge_);
   }
 
   Random random_;
   BlendOptions blends_;
+  double deformedEdge_;
 };
 
 } // namespace
 
-NodePtr randomTree(std::uint64_t seed, int depth, const BlendOptions& blends)
+NodePtr randomTree(std::uint64_t seed, int depth, const BlendOptions& blends, double deformedEdge)
 {
-  return Grower(seed, blends).grow(depth);
+  return Grower(seed, blends, deformedEdge).grow(depth);
 }
 
 Affine3 randomMap(Random& random)

@@ -24,7 +24,7 @@ constexpr std::array<BlendMethod, 4> kMethods = { BlendMethod::Automatic, BlendM
 constexpr std::array<const char*, 4> kNames = { "automatic", "node-based", "primitive-based",
   "global" };
 constexpr std::array<double, 3> kThresholds = { 0.0, 0.5, 1.0 };
-constexpr int kHalvings = 2;
+constexpr int kHalvings = 3;
 
 // In edge lengths.
 constexpr double kOnSurface = 1e-3;
@@ -137,7 +137,7 @@ TreeVerdict judge(std::uint64_t seed, double cells, std::size_t points)
   {
     try
     {
-      const NodePtr tree = randomTree(seed, depth, { kMethods[m], threshold });
+      const NodePtr tree = randomTree(seed, depth, { kMethods[m], threshold }, edge);
       all.push_back({ kNames[m], tree, tree->mesh(edge) });
       judge.look(all.back());
     }

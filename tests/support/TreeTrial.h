@@ -47,8 +47,8 @@ struct TreeVerdict
 
 /// The random tree of a seed, two to six nodes above each other, with one of three overlap
 /// thresholds. A lattice does not see what is thinner than its cells: a tree that is bad, but not
-/// broken, is judged once more at half and then at a quarter of the edge length, where the bounds
-/// are half and a quarter as large.
+/// broken, is judged once more at a half, a quarter and an eighth of the edge length, where the
+/// bounds are as much smaller.
 /// \param cells edge lengths along the largest side of the tree. \param points random ones.
 /// \return the verdicts at each edge length; the last one counts.
 std::vector<TreeVerdict> tryTree(std::uint64_t seed, double cells, std::size_t points);

@@ -2,7 +2,7 @@
 #include "core/nodes/BooleanMesh.h"
 
 #include "core/mesh/MeshChecks.h"
-#include "core/nodes/Boolean.h"
+#include "core/nodes/BooleanNest.h"
 #include "core/nodes/MeshNode.h"
 #include "core/nodes/Primitive.h"
 #include "core/skeletons/Point.h"
@@ -168,6 +168,40 @@ TEST(BooleanMesh, AChildThatCrossesItselfAtTheCutIsMeshedOnTheLattice)
   ASSERT_EQ(warnings.size(), 2u);
   EXPECT_NE(warnings[1].find("lattice"), std::string::npos);
   EXPECT_TRUE(intersectionCurves(*tree, 0.1).empty());
+}
+
+double lengthOf(const std::vector<std::vector<Vec3>>& curves)
+{
+  double length = 0.0;
+  for (const std::vector<Vec3>& curve : curves)
+  {
+    for (std::size_t k = 1; k < curve.size(); ++k)
+    {
+      length += (curve[k] - curve[k - 1]).norm();
+    }
+  }
+  return length;
+}
+
+// Bricks across a beam: each outlines its ends on it, and a further cut takes from the outlines
+// what it takes from the solid.
+TEST(BooleanCurves, GoOnThroughFurtherCuts)
+{
+  const NodePtr beam = leafOf(box(Vec3(-3.0, -0.5, -0.5), Vec3(3.0, 0.5, 0.5)));
+  const NodePtr first = leafOf(box(Vec3(-1.0, -1.0, -1.0), Vec3(-0.5, 1.0, 1.0)));
+  const NodePtr second = leafOf(box(Vec3(0.5, -1.0, -1.0), Vec3(1.0, 1.0, 1.0)));
+  const NodePtr all = BooleanNest().make(kUnion, { beam, first, second });
+  const auto curves = intersectionCurves(*all, 0.1);
+  EXPECT_EQ(curves.size(), 4u);
+  EXPECT_NEAR(lengthOf(curves), 16.0, 1e-9);
+  for (const auto& curve : curves)
+  {
+    EXPECT_EQ(curve.front(), curve.back());
+  }
+  // The upper half goes: half of every outline, and a new one around each of the pieces.
+  const NodePtr upper = leafOf(box(Vec3(-5.0, -5.0, 0.0), Vec3(5.0, 5.0, 5.0)));
+  const auto halves = intersectionCurves(*makeBoolean(kDifference, all, upper), 0.1);
+  EXPECT_NEAR(lengthOf(halves), 4 * 2.0 + (2.0 * 6.0 + 2.0 * 1.0 + 4.0 * 0.5 * 2.0), 1e-9);
 }
 
 } // namespace
