@@ -67,6 +67,24 @@ IslandStore& store()
   return *instance;
 }
 
+/// A field without parts. Its islands are forgotten with it.
+class WholeField final : public IslandField
+{
+public:
+  explicit WholeField(const FieldSource& field) : field_(field) {}
+
+  Near near(const Box3&) const override
+  {
+    return { FieldSourcePtr(FieldSourcePtr(), &field_), { { self_, 0.0, 0 } } };
+  }
+
+  void finish(TriangleMesh&, std::size_t, const Progress&) const override {}
+
+private:
+  const FieldSource& field_;
+  const std::shared_ptr<const int> self_ = std::make_shared<const int>(0);
+};
+
 /// One island on its way from cells to triangles.
 struct Work
 {
@@ -296,6 +314,12 @@ std::optional<StitchedMesh> stitch(const IslandField& field, const std::vector<K
     markAround(faults, round, cells);
   }
   return std::nullopt;
+}
+
+std::optional<StitchedMesh> stitch(const FieldSource& field, const std::vector<KeptPart>& parts,
+  CellSet cells, const StitchOptions& options, const Progress& progress)
+{
+  return stitch(WholeField(field), parts, std::move(cells), options, progress);
 }
 
 void forgetIslands()

@@ -63,6 +63,10 @@ struct StitchedMesh
 std::optional<StitchedMesh> stitch(const IslandField& field, const std::vector<KeptPart>& parts,
   CellSet cells, const StitchOptions& options, const Progress& progress = Progress::none());
 
+/// Of a field that nothing is known of: nothing is remembered, and sourceLeaf is -1 in the patches.
+std::optional<StitchedMesh> stitch(const FieldSource& field, const std::vector<KeptPart>& parts,
+  CellSet cells, const StitchOptions& options, const Progress& progress = Progress::none());
+
 /// Forgets all islands; for tests and benchmarks.
 void forgetIslands();
 
