@@ -13,7 +13,7 @@ namespace
 
 const double kPi = std::acos(-1.0);
 constexpr int kAround = 6;
-constexpr double kReach = 2.5;   // of an axis, in radii: bulges where pieces meet are within
+constexpr double kReach = 1.6;   // of an axis, in radii: bulges where pieces meet are within
 constexpr double kCap = 0.45;    // from the last ring to the pole, in radii
 constexpr double kSamples = 4.0; // of the field along the curve, per radius
 

@@ -10,9 +10,13 @@ namespace hybridtree
 namespace
 {
 
-constexpr int kMaxRounds = 8;
-constexpr double kShortest = 0.1; // edge that may be split, in radii
+constexpr int kMaxRounds = 30;
+constexpr double kShortest = 0.1;    // edge that may be split, in radii
+constexpr double kReach = 0.4;       // of the middle of an edge to the surface, in edge lengths
+constexpr double kOpposite = -0.2;   // cosine between the normals at both ends of an edge that cuts
+constexpr double kClearly = 1.00001; // so that rounding does not choose between equal edges
 constexpr std::int32_t kSettled = -1;
+constexpr std::int32_t kToSplit = -2;
 
 using Edge = std::array<std::int32_t, 2>;
 
@@ -41,11 +45,27 @@ public:
   }
 
 private:
+  struct Middles
+  {
+    std::vector<Vec3> points;
+    std::vector<double> value;
+    std::vector<Vec3> gradient;
+  };
+  Middles middlesOf(const std::vector<Edge>& edges) const;
+  double lengthOf(std::int32_t a, std::int32_t b) const
+  {
+    return (mesh_.points[b] - mesh_.points[a]).norm();
+  }
+  bool isOnSurface(const Edge& edge) const
+  {
+    return mesh_.onSurface[edge[0]] != 0 && mesh_.onSurface[edge[1]] != 0;
+  }
   void placeCage(const PieceCage& cage, const std::vector<double>& before);
   bool splitEdges();
   std::vector<Edge> newEdges();
   bool isOff(const Edge& edge, double value, double length) const;
-  void addMiddles(const std::vector<Edge>& edges, const std::vector<SkeletonAxis>& axes);
+  void addLongestEdges(std::vector<Edge>& split);
+  void addMiddles(const std::vector<Edge>& edges);
   void addPoint(const Vec3& point, const Vec3& normal, bool onSurface);
   void divideTriangles();
   void divide(const Triangle& triangle, std::vector<Triangle>& result) const;
@@ -81,7 +101,7 @@ void Refiner::placeCage(const PieceCage& cage, const std::vector<double>& before
   {
     const bool isFound = !std::isnan(found[k]);
     // One that finds nothing ends inside of what it runs into.
-    const double t = isFound ? found[k] : cage.radii[k];
+    const double t = isFound ? found[k] : axes[k].most;
     const bool steep = isFound && gradient[k].norm() > 0.0;
     addPoint(axes[k].base + t * axes[k].direction,
       steep ? Vec3(-gradient[k].normalized()) : axes[k].direction, isFound);
@@ -116,7 +136,7 @@ bool Refiner::isOff(const Edge& edge, double value, double length) const
     return false;
   }
   const double tolerance = options_.refinement * kThreshold;
-  if (!mesh_.onSurface[edge[0]] || !mesh_.onSurface[edge[1]])
+  if (!isOnSurface(edge))
   {
     return value < kThreshold - tolerance; // what is inside may stay as it is
   }
@@ -124,41 +144,87 @@ bool Refiner::isOff(const Edge& edge, double value, double length) const
   return isLong || std::abs(value - kThreshold) > tolerance;
 }
 
+Refiner::Middles Refiner::middlesOf(const std::vector<Edge>& edges) const
+{
+  Middles result;
+  for (const auto& [a, b] : edges)
+  {
+    result.points.push_back(0.5 * (mesh_.points[a] + mesh_.points[b]));
+  }
+  fieldAndGradientAt(field_, result.points, result.value, result.gradient);
+  return result;
+}
+
 /// \return whether any edge has a new vertex.
 bool Refiner::splitEdges()
 {
   const std::vector<Edge> edges = newEdges();
-  std::vector<Vec3> middles;
-  for (const auto& [a, b] : edges)
-  {
-    middles.push_back(0.5 * (mesh_.points[a] + mesh_.points[b]));
-  }
-  std::vector<double> value;
-  std::vector<Vec3> gradient;
-  fieldAndGradientAt(field_, middles, value, gradient);
+  const Middles middles = middlesOf(edges);
   std::vector<Edge> split;
+  for (std::size_t k = 0; k < edges.size(); ++k)
+  {
+    const auto [a, b] = edges[k];
+    if (isOff(edges[k], middles.value[k], lengthOf(a, b)))
+    {
+      middles_[keyOf(a, b)] = kToSplit;
+      split.push_back(edges[k]);
+    }
+  }
+  addLongestEdges(split);
+  addMiddles(split);
+  return !split.empty();
+}
+
+/// Of each triangle with an edge that is split, also the longest: otherwise it would stay, and
+/// splits on both of its sides would come ever nearer to it.
+void Refiner::addLongestEdges(std::vector<Edge>& split)
+{
+  const auto isSplit = [&](std::int32_t a, std::int32_t b)
+  { return middles_[keyOf(a, b)] == kToSplit; };
+  for (std::size_t before = 0; before < split.size();)
+  {
+    before = split.size();
+    for (const Triangle& triangle : mesh_.triangles)
+    {
+      int longest = 0;
+      double most = 0.0;
+      bool any = false;
+      for (int k = 0; k < 3; ++k)
+      {
+        const std::int32_t a = triangle[k];
+        const std::int32_t b = triangle[(k + 1) % 3];
+        const double length = lengthOf(a, b);
+        longest = length > kClearly * most ? k : longest;
+        most = std::max(most, length);
+        any = any || isSplit(a, b);
+      }
+      const Edge edge{ triangle[longest], triangle[(longest + 1) % 3] };
+      if (any && !isSplit(edge[0], edge[1]))
+      {
+        middles_[keyOf(edge[0], edge[1])] = kToSplit;
+        split.push_back(edge);
+      }
+    }
+  }
+}
+
+void Refiner::addMiddles(const std::vector<Edge>& edges)
+{
+  const Middles middles = middlesOf(edges);
   std::vector<SkeletonAxis> axes;
   for (std::size_t k = 0; k < edges.size(); ++k)
   {
     const auto [a, b] = edges[k];
-    const double length = (mesh_.points[b] - mesh_.points[a]).norm();
-    if (!isOff(edges[k], value[k], length))
-    {
-      continue;
-    }
-    const double steepness = gradient[k].norm();
-    const Vec3 outward = steepness > 0.0 ? Vec3(-gradient[k] / steepness)
-                                         : (mesh_.normals[a] + mesh_.normals[b]).normalized();
-    const double reach = std::min(0.75 * length, 0.5 * (radii_[a] + radii_[b]));
-    split.push_back(edges[k]);
-    axes.push_back({ middles[k], outward, 0.0, -reach, reach, 0.5 * reach });
+    const double steepness = middles.gradient[k].norm();
+    const Vec3 along = mesh_.normals[a] + mesh_.normals[b];
+    const Vec3 outward =
+      steepness > 0.0 ? Vec3(-middles.gradient[k] / steepness) : along.normalized();
+    // An edge that cuts through a body does not go around it: its middle stays inside.
+    const bool cuts = middles.value[k] > kThreshold &&
+      (!isOnSurface(edges[k]) || mesh_.normals[a].dot(mesh_.normals[b]) < kOpposite);
+    const double reach = cuts ? 0.0 : kReach * lengthOf(a, b);
+    axes.push_back({ middles.points[k], outward, 0.0, -reach, reach, 0.5 * reach });
   }
-  addMiddles(split, axes);
-  return !split.empty();
-}
-
-void Refiner::addMiddles(const std::vector<Edge>& edges, const std::vector<SkeletonAxis>& axes)
-{
   std::vector<Vec3> gradient;
   const std::vector<double> found = slideAxes(field_, axes, &gradient);
   for (std::size_t k = 0; k < edges.size(); ++k)
@@ -229,7 +295,7 @@ void Refiner::divide(const Triangle& triangle, std::vector<Triangle>& result) co
   result.push_back({ bc, c, ca });
   const auto length = [&](std::int32_t p, std::int32_t q)
   { return (mesh_.points[p] - mesh_.points[q]).squaredNorm(); };
-  if (length(a, bc) < length(b, ca))
+  if (kClearly * length(a, bc) < length(b, ca))
   {
     result.push_back({ a, b, bc });
     result.push_back({ a, bc, ca });

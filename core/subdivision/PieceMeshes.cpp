@@ -12,7 +12,7 @@ namespace hybridtree
 namespace
 {
 
-constexpr double kAxisReach = 2.5; // of the axes of a cage, in radii
+constexpr double kAxisReach = 2.7; // of a piece's mesh from its skeleton, in radii
 
 class Hash
 {

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/subdivision/SkeletonMesh.h"
 
+#include "core/mesh/Dust.h"
+
 #include <cmath>
+#include <unordered_map>
+#include <unordered_set>
 
 namespace hybridtree
 {
@@ -9,6 +13,7 @@ namespace
 {
 
 constexpr double kLongest = 4.0 / 3.0; // edge, in cells
+constexpr double kDust = 1e-3;         // volume per area of a part that is none, in cells
 constexpr double kMargin = 0.25;       // around triangles, in cells: more than pieces differ by
 
 /// Which part of which piece is in a cell.
@@ -23,8 +28,9 @@ class Marker
 public:
   explicit Marker(const CellGrid& grid) : grid_(grid) {}
 
-  CellSet take()
+  CellSet take(const FieldSource& field)
   {
+    addUncovered(field);
     cells_.fillDiagonals();
     cells_.sort();
     return std::move(cells_);
@@ -65,6 +71,79 @@ public:
   }
 
 private:
+  /// From marked cells on, those that the surface crosses and no piece is in: where all pieces end
+  /// inside of others and none has what lies between them.
+  void addUncovered(const FieldSource& field)
+  {
+    std::vector<Index3> front;
+    cells_.forEach([&](const Index3& cell) { front.push_back(cell); });
+    std::unordered_set<Index3, Index3Hash> seen;
+    while (!front.empty())
+    {
+      std::vector<Index3> next;
+      for (const Index3& cell : front)
+      {
+        for (int side = 0; side < 6; ++side)
+        {
+          Index3 beside = cell;
+          beside[side / 2] += side % 2 ? 1 : -1;
+          if (owners_.count(beside) == 0 && !cells_.contains(beside) && seen.insert(beside).second)
+          {
+            next.push_back(beside);
+          }
+        }
+      }
+      sampleCorners(next, field);
+      front.clear();
+      for (const Index3& cell : next)
+      {
+        if (isCrossed(cell))
+        {
+          cells_.insert(cell);
+          front.push_back(cell);
+        }
+      }
+    }
+  }
+
+  static Index3 corner(const Index3& cell, int k)
+  {
+    return { cell[0] + (k & 1), cell[1] + (k >> 1 & 1), cell[2] + (k >> 2) };
+  }
+
+  void sampleCorners(const std::vector<Index3>& cells, const FieldSource& field)
+  {
+    std::vector<Index3> asked;
+    std::vector<Vec3> points;
+    for (const Index3& cell : cells)
+    {
+      for (int k = 0; k < 8; ++k)
+      {
+        const Index3 at = corner(cell, k);
+        if (inside_.try_emplace(at, false).second)
+        {
+          asked.push_back(at);
+          points.emplace_back(grid_.plane(0, at[0]), grid_.plane(1, at[1]), grid_.plane(2, at[2]));
+        }
+      }
+    }
+    const std::vector<double> values = fieldAt(field, points);
+    for (std::size_t k = 0; k < asked.size(); ++k)
+    {
+      inside_[asked[k]] = values[k] >= kThreshold;
+    }
+  }
+
+  bool isCrossed(const Index3& cell) const
+  {
+    int count = 0;
+    for (int k = 0; k < 8; ++k)
+    {
+      count += inside_.at(corner(cell, k)) ? 1 : 0;
+    }
+    return count != 0 && count != 8;
+  }
+
   template <typename Visit>
   void visitCells(Box3 box, Visit&& visit) const
   {
@@ -87,6 +166,7 @@ private:
   const CellGrid& grid_;
   CellSet cells_;
   std::unordered_map<Index3, Owner, Index3Hash> owners_;
+  std::unordered_map<Index3, bool, Index3Hash> inside_; // sides of corners
 };
 
 MeshPtr withoutExtras(const PieceMesh& piece)
@@ -108,7 +188,7 @@ CellSet cellsWherePiecesMeet(const std::vector<PieceMeshPtr>& pieces, const Fiel
   {
     marker.addPiece(k, *pieces[k], field, 2.0 * refinement * kThreshold);
   }
-  return marker.take();
+  return marker.take(field);
 }
 
 std::optional<StitchedMesh> skeletonMesh(const SkeletonField& skeleton,
@@ -133,8 +213,13 @@ std::optional<StitchedMesh> skeletonMesh(const SkeletonField& skeleton,
       parts.push_back(std::move(part));
     }
   }
-  return stitch(
-    skeleton.field, parts, std::move(cells), stitching, ProgressPart(progress, 0.4, 1.0));
+  std::optional<StitchedMesh> result =
+    stitch(skeleton.field, parts, std::move(cells), stitching, ProgressPart(progress, 0.4, 1.0));
+  if (result)
+  {
+    dropDust(result->mesh, kDust * options.edgeLength);
+  }
+  return result;
 }
 
 } // namespace hybridtree

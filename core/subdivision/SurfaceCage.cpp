@@ -11,7 +11,7 @@ namespace hybridtree
 namespace
 {
 
-constexpr double kReach = 2.5;  // of an axis, in radii
+constexpr double kReach = 1.6;  // of an axis, in radii
 constexpr double kShift = 0.25; // of a base that is outside, at a time, in radii
 constexpr int kMaxShifts = 8;
 constexpr double kInside = 1.1 * kThreshold; // where axes may begin

@@ -93,8 +93,9 @@ void addHead(Builder& alien, std::int32_t hub)
   }
   for (const double side : { -1.0, 1.0 })
   {
-    const std::int32_t root = rim[side < 0.0 ? 1 : 4];
-    const Vec3 at = alien.graph.points[root];
+    const std::int32_t cheek = rim[side < 0.0 ? 1 : 4];
+    const Vec3 at = alien.graph.points[cheek] + Vec3(side * 0.3, 0.0, 0.1);
+    const std::int32_t root = alien.limb(cheek, at, 1, 0.2);
     const std::int32_t a = alien.point(at + Vec3(side * 0.35, 0.1, 0.45), 0.2);
     const std::int32_t b = alien.point(at + Vec3(side * 0.55, -0.1, 0.0), 0.2);
     const std::int32_t c = alien.point(at + Vec3(side * 1.2, 0.1, 0.7), 0.08);
@@ -142,7 +143,7 @@ SkeletonGraph alien()
     addArm(shape, chest, side);
     addLeg(shape, hip, side);
   }
-  shape.limb(hip, { 0.4, -3.0, 0.2 }, 12, 0.08, { 0.5, 0.0, -0.8 });
+  shape.limb(hip, { 0.4, -3.0, 0.2 }, 10, 0.08, { 0.5, 0.0, -0.8 });
   addHead(shape, head);
   // The fin hangs at one point of the back.
   const std::int32_t a = shape.point({ 0.0, -0.9, 1.6 }, 0.1);

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/subdivision/SkeletonMesh.h"
+
+#include "core/base/Parallel.h"
+#include "core/mesh/MeshChecks.h"
+#include "core/mesh/MeshDistance.h"
+#include "core/nodes/LatticeMesh.h"
+#include "tests/core/subdivision/SkeletonFieldCase.h"
+#include "tests/support/CancelAt.h"
+#include "tests/support/Random.h"
+#include "tests/support/SkeletonShapes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace hybridtree
+{
+namespace
+{
+
+using test::SkeletonFieldCase;
+
+double farthest(const TriangleMesh& from, const TriangleMesh& to)
+{
+  const MeshDistance distance(std::make_shared<TriangleMesh>(to));
+  const test::PointList points(from.points);
+  std::vector<double> off(points.size());
+  distance.distance(points, std::numeric_limits<double>::infinity(), off.data());
+  return *std::max_element(off.begin(), off.end());
+}
+
+/// The smallest angle that all but one in a hundred triangles have, degrees.
+double commonSmallestAngle(const TriangleMesh& mesh)
+{
+  std::vector<double> angles;
+  for (const Triangle& t : mesh.triangles)
+  {
+    double least = 180.0;
+    for (int k = 0; k < 3; ++k)
+    {
+      const Vec3 u = mesh.points[t[(k + 1) % 3]] - mesh.points[t[k]];
+      const Vec3 v = mesh.points[t[(k + 2) % 3]] - mesh.points[t[k]];
+      least = std::min(least, std::atan2(u.cross(v).norm(), u.dot(v)) * 180.0 / std::acos(-1.0));
+    }
+    angles.push_back(least);
+  }
+  std::sort(angles.begin(), angles.end());
+  return angles[angles.size() / 100];
+}
+
+void expectOnSurface(const SkeletonFieldCase& shape, const TriangleMesh& mesh, double cell)
+{
+  std::vector<double> value;
+  std::vector<Vec3> gradient;
+  fieldAndGradientAt(*shape.node, mesh.points, value, gradient);
+  for (std::size_t k = 0; k < mesh.points.size(); ++k)
+  {
+    ASSERT_LT(std::abs(value[k] - kThreshold) / gradient[k].norm(), 1e-3 * cell);
+  }
+}
+
+/// Any tree of limbs, some with a triangle at their end.
+SkeletonGraph randomSkeleton(std::uint64_t seed)
+{
+  test::Random random(seed);
+  SkeletonGraph graph;
+  const auto add = [&](const Vec3& at, double radius)
+  {
+    graph.points.push_back(at);
+    graph.radii.push_back(radius);
+    return std::int32_t(graph.points.size() - 1);
+  };
+  std::vector<std::int32_t> joints{ add(Vec3::Zero(), random.uniform(0.2, 0.4)) };
+  const int count = random.integer(4, 12);
+  for (int k = 1; k <= count; ++k)
+  {
+    const std::int32_t from = joints[std::size_t(random.integer(std::max(0, k - 4), k - 1))];
+    const Vec3 at = graph.points[from] + random.uniform(0.7, 1.6) * random.direction();
+    joints.push_back(add(at, random.uniform(0.15, 0.4)));
+    graph.segments.push_back({ from, joints.back() });
+    if (random.chance(0.3))
+    {
+      const Vec3 way = random.direction();
+      const std::int32_t a = add(at + way, random.uniform(0.15, 0.3));
+      const std::int32_t b = add(at + way + 0.9 * way.unitOrthogonal(), random.uniform(0.15, 0.3));
+      graph.triangles.push_back({ joints.back(), a, b });
+    }
+  }
+  return graph;
+}
+
+TEST(SkeletonMesh, IsOneClosedManifoldWithTheTopologyAndThePlaceOfTheLattice)
+{
+  const std::pair<SkeletonGraph, double> cases[] = { { test::bretzel(), 0.15 },
+    { test::figure7(), 0.12 }, { test::alien(), 0.08 }, { test::fan(5, true), 0.07 },
+    { test::chain(5), 0.1 } };
+  for (const auto& [graph, cell] : cases)
+  {
+    const SkeletonFieldCase shape(graph);
+    SkeletonMeshOptions options;
+    options.edgeLength = cell;
+    const std::optional<StitchedMesh> made = skeletonMesh(shape.field(), options);
+    ASSERT_TRUE(made.has_value());
+    const TriangleMesh& mesh = made->mesh;
+    const TriangleMesh lattice = latticeMesh(*shape.node, cell, Progress::none());
+    const MeshReport report = checkMesh(mesh);
+    EXPECT_TRUE(report.closedManifold()) << report.describe();
+    EXPECT_EQ(report.eulerCharacteristic, checkMesh(lattice).eulerCharacteristic);
+    EXPECT_EQ(report.components, checkMesh(lattice).components);
+    EXPECT_LT(farthest(mesh, lattice), 0.5 * cell);
+    EXPECT_LT(farthest(lattice, mesh), 0.5 * cell);
+    EXPECT_NEAR(signedVolume(mesh), signedVolume(lattice), 0.03 * signedVolume(lattice));
+    EXPECT_GT(made->keptTriangles, 0u);
+    EXPECT_GT(commonSmallestAngle(mesh), 10.0);
+    EXPECT_GT(commonSmallestAngle(mesh), 3.0 * commonSmallestAngle(lattice));
+    expectOnSurface(shape, mesh, cell);
+  }
+}
+
+TEST(SkeletonMesh, RandomSkeletonsHaveTheTopologyOfTheLattice)
+{
+  for (std::uint64_t seed = 1; seed <= 12; ++seed)
+  {
+    const SkeletonFieldCase shape(randomSkeleton(seed), 1);
+    SkeletonMeshOptions options;
+    options.edgeLength = 0.1;
+    const std::optional<StitchedMesh> made = skeletonMesh(shape.field(), options);
+    ASSERT_TRUE(made.has_value()) << "seed " << seed;
+    const TriangleMesh lattice = latticeMesh(*shape.node, 0.1, Progress::none());
+    const MeshReport report = checkMesh(made->mesh);
+    EXPECT_TRUE(report.closedManifold()) << "seed " << seed << ": " << report.describe();
+    EXPECT_EQ(report.eulerCharacteristic, checkMesh(lattice).eulerCharacteristic)
+      << "seed " << seed;
+    EXPECT_LT(farthest(made->mesh, lattice), 0.05) << "seed " << seed;
+    EXPECT_LT(farthest(lattice, made->mesh), 0.05) << "seed " << seed;
+  }
+}
+
+TEST(SkeletonMesh, CanBeCancelled)
+{
+  const SkeletonFieldCase shape(test::figure7());
+  SkeletonMeshOptions options;
+  options.edgeLength = 0.15;
+  for (const int looks : { 0, 3, 12 })
+  {
+    EXPECT_THROW(skeletonMesh(shape.field(), options, nullptr, test::CancelAt(looks)), Cancelled);
+  }
+}
+
+TEST(SkeletonMesh, IsTheSameForAnyNumberOfThreads)
+{
+  const SkeletonFieldCase shape(test::figure7());
+  SkeletonMeshOptions options;
+  options.edgeLength = 0.15;
+  std::optional<StitchedMesh> meshes[2];
+  for (int k = 0; k < 2; ++k)
+  {
+    setThreadCount(1 + 2 * k);
+    meshes[k] = skeletonMesh(shape.field(), options);
+  }
+  setThreadCount(0);
+  ASSERT_TRUE(meshes[0] && meshes[1]);
+  EXPECT_EQ(meshes[0]->mesh.points, meshes[1]->mesh.points);
+  EXPECT_EQ(meshes[0]->mesh.triangles, meshes[1]->mesh.triangles);
+}
+
+} // namespace
+} // namespace hybridtree
