@@ -4,6 +4,7 @@
 #include "core/mesh/SmoothNormals.h"
 #include "core/nodes/TriangleSources.h"
 #include "core/polygonize/Polygonize.h"
+#include "core/polygonize/SharpCreases.h"
 
 namespace hybridtree
 {
@@ -24,11 +25,14 @@ TriangleMesh latticeMesh(const Node& node, double edgeLength, const Progress& pr
   PolygonizeOptions options;
   options.cellSize = edgeLength;
   TriangleMesh mesh = polygonize(node, bounds, options, ProgressPart(progress, 0.0, 0.9));
-  findSourceLeaves(node, mesh, 0, progress);
   if (node.isFaceted())
   {
     smoothNormals(mesh);
   }
+  Lattice lattice;
+  lattice.cellSize = edgeLength;
+  sharpenCreases(node, lattice, 0, mesh, progress);
+  findSourceLeaves(node, mesh, 0, progress);
   return mesh;
 }
 

@@ -2,6 +2,7 @@
 #include "core/stitch/Island.h"
 
 #include "core/polygonize/MemoryBudget.h"
+#include "core/polygonize/SharpCreases.h"
 #include "core/stitch/CheckPatch.h"
 #include "core/stitch/KeptMesh.h"
 #include "core/stitch/Patch.h"
@@ -66,11 +67,16 @@ public:
     this->join(patch);
     projectPoints(field_, this->pointsToMove(patch), kReach * options_.grid.cellSize, island_.mesh);
     mendNormals(island_.mesh);
-    improveShapes(field_, island_.mesh, island_.rim.size(), options_.grid.cellSize);
+    std::size_t creasePoints = sharpenCreases(field_, options_.grid.lattice({}, {}),
+      island_.mesh.triangles.size() - patch.triangles.size(), island_.mesh, progress_);
+    improveShapes(field_, island_.mesh, island_.rim.size(), creasePoints, options_.grid.cellSize);
     this->findFaults(patch);
     if (island_.faults.empty())
     {
+      // Turned round, the normals of creases do not mix with those of the faces beside them.
+      this->turnLastNormals(creasePoints);
       whole.finish(island_.mesh, island_.rim.size(), progress_);
+      this->turnLastNormals(creasePoints);
     }
     for (CutMesh& cut : cut_.cuts)
     {
@@ -80,6 +86,13 @@ public:
   }
 
 private:
+  void turnLastNormals(std::size_t count)
+  {
+    std::vector<Vec3>& normals = island_.mesh.normals;
+    std::for_each(normals.end() - static_cast<std::ptrdiff_t>(count), normals.end(),
+      [](Vec3& normal) { normal = -normal; });
+  }
+
   /// The lines in which all cut meshes meet the border: vertices are the cut vertices of the first
   /// part, those of the second, and so on.
   Patch makePatchInside()

@@ -23,11 +23,12 @@ constexpr double kBadShape = 0.9613; // cosine of 16 degrees
 constexpr double kSliver = 0.9848;   // cosine of 10 degrees: below, a triangle's normal says little
 constexpr double kWorthIt = 0.002;   // gain in that cosine
 constexpr double kMostBent = 0.15;   // cells, across the four points of a flipped edge
-constexpr double kMostOff = 0.05;    // cells, between old and new surface
-constexpr double kLargestTurn = 0.8; // cosine, of the normal of a triangle,
-constexpr double kLargestTilt = 0.6; // or of one to the normals of its points
-constexpr double kFlatEnough = 0.94; // cosine of the angle across an edge that may be flipped
-constexpr double kLongestSide = 1.6; // cells, of a triangle that had shorter ones
+constexpr double kMostOff = 0.05;    // cells, between old and new surface,
+constexpr double kMostOffCrease = 0.01; // and where a point of a crease goes
+constexpr double kLargestTurn = 0.8;    // cosine, of the normal of a triangle,
+constexpr double kLargestTilt = 0.6;    // or of one to the normals of its points
+constexpr double kFlatEnough = 0.94;    // cosine of the angle across an edge that may be flipped
+constexpr double kLongestSide = 1.6;    // cells, of a triangle that had shorter ones
 
 /// Cosine of the smallest angle: 0.5 at best, 1 without area.
 double shapeOf(const Vec3& a, const Vec3& b, const Vec3& c)
@@ -54,11 +55,12 @@ Vec3 normalOf(const Vec3& a, const Vec3& b, const Vec3& c)
 class ShapeImprover
 {
 public:
-  ShapeImprover(
-    const FieldSource& field, TriangleMesh& mesh, std::size_t keptPoints, double cellSize)
+  ShapeImprover(const FieldSource& field, TriangleMesh& mesh, std::size_t keptPoints,
+    std::size_t creasePoints, double cellSize)
     : field_(field)
     , mesh_(mesh)
     , firstOwn_(static_cast<Index>(keptPoints))
+    , firstOnCrease_(static_cast<Index>(mesh.points.size() - creasePoints))
     , cellSize_(cellSize)
     , links_(mesh.triangles, mesh.points.size())
     , touched_(links_.triangleCount(), false)
@@ -66,19 +68,21 @@ public:
   {
   }
 
-  void run()
+  /// \return how many points are left on creases.
+  std::size_t run()
   {
     this->mendAll();
     for (int round = 0; round < kMoves && this->moveAll(); ++round)
     {
       this->mendAll();
     }
-    this->giveBack();
+    return this->giveBack();
   }
 
 private:
   const Vec3& point(Index v) const { return mesh_.points[v]; }
   bool isOwn(Index v) const { return v >= firstOwn_; }
+  bool isCreasePoint(Index v) const { return v >= firstOnCrease_; }
 
   double shape(std::size_t t) const
   {
@@ -138,7 +142,8 @@ private:
       }
       for (const Index v : links_.triangle(t))
       {
-        if (!known[v] && this->isOwn(v) && !links_.isLocked(v) && !this->isOnCrease(v))
+        if (!known[v] && this->isOwn(v) && !this->isCreasePoint(v) && !links_.isLocked(v) &&
+          !this->isOnCrease(v))
         {
           moving.push_back(v);
         }
@@ -316,7 +321,8 @@ private:
         before += badness(this->shape(static_cast<std::size_t>(leaving / 3)));
       });
     const Vec3& up = mesh_.normals[from];
-    allowed = std::abs(up.dot(target - this->point(from))) <= 2.0 * kMostOff * cellSize_;
+    const double mostOff = (this->isCreasePoint(from) ? kMostOffCrease : kMostOff) * cellSize_;
+    allowed = std::abs(up.dot(target - this->point(from))) <= 2.0 * mostOff;
     const double limit = std::max(kLongestSide * cellSize_, longest);
     links_.forEachLeaving(from,
       [&](Index leaving)
@@ -327,7 +333,7 @@ private:
         const Vec3 old = this->normal(t);
         const double size = old.norm();
         const bool solid = this->shape(t) < kSliver && size > 0.0;
-        if (solid && std::abs(old.dot(target - this->point(b))) > kMostOff * cellSize_ * size)
+        if (solid && std::abs(old.dot(target - this->point(b))) > mostOff * size)
         {
           allowed = false;
         }
@@ -362,7 +368,8 @@ private:
     const Vec3& d = this->point(id);
     const double before = badness(shapeOf(a, b, c)) + badness(shapeOf(b, a, d));
     const double after = badness(shapeOf(d, b, c)) + badness(shapeOf(c, a, d));
-    if ((c - d).norm() > std::max(kLongestSide * cellSize_, (a - b).norm()))
+    if ((c - d).norm() > std::max(kLongestSide * cellSize_, (a - b).norm()) ||
+      (this->isCreasePoint(ia) && this->isCreasePoint(ib)))
     {
       return 0.0;
     }
@@ -387,7 +394,7 @@ private:
   }
 
   /// Leaves out what was removed, and keeps the order of the rest.
-  void giveBack()
+  std::size_t giveBack()
   {
     std::vector<Index> number(mesh_.points.size() - static_cast<std::size_t>(firstOwn_), -1);
     std::size_t kept = 0;
@@ -417,6 +424,7 @@ private:
     mesh_.sourceLeaf.resize(kept);
     mesh_.sourceTriangle.resize(mesh_.sourceTriangle.empty() ? 0 : kept);
     auto next = static_cast<std::size_t>(firstOwn_);
+    std::size_t onCreases = 0;
     for (std::size_t k = 0; k < number.size(); ++k)
     {
       if (number[k] < 0)
@@ -424,6 +432,7 @@ private:
         continue;
       }
       const auto from = static_cast<std::size_t>(firstOwn_) + k;
+      onCreases += this->isCreasePoint(static_cast<Index>(from)) ? 1 : 0;
       mesh_.points[next] = mesh_.points[from];
       mesh_.normals[next] = mesh_.normals[from];
       if (!mesh_.vertexOrigin.empty())
@@ -442,11 +451,13 @@ private:
         v = v >= firstOwn_ ? number[v - firstOwn_] : v;
       }
     }
+    return onCreases;
   }
 
   const FieldSource& field_;
   TriangleMesh& mesh_;
   const Index firstOwn_;
+  const Index firstOnCrease_;
   const double cellSize_;
   MeshLinks links_;
   std::vector<bool> touched_;
@@ -455,12 +466,12 @@ private:
 
 } // namespace
 
-void improveShapes(
-  const FieldSource& field, TriangleMesh& mesh, std::size_t keptPoints, double cellSize)
+void improveShapes(const FieldSource& field, TriangleMesh& mesh, std::size_t keptPoints,
+  std::size_t& creasePoints, double cellSize)
 {
   if (!mesh.triangles.empty())
   {
-    ShapeImprover(field, mesh, keptPoints, cellSize).run();
+    creasePoints = ShapeImprover(field, mesh, keptPoints, creasePoints, cellSize).run();
   }
 }
 

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/polygonize/CreaseLoops.h"
+
+#include "core/base/Parallel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace hybridtree
+{
+namespace
+{
+
+constexpr std::size_t kGrain = 16384;
+
+/// A side of a triangle, which is known by its place among those looked at.
+struct Side
+{
+  std::int32_t from;
+  std::int32_t to;
+  std::int32_t triangle;
+};
+
+bool operator<(const Side& a, const Side& b)
+{
+  return std::make_pair(a.from, a.to) < std::make_pair(b.from, b.to);
+}
+
+class LoopFinder
+{
+public:
+  LoopFinder(
+    const TriangleMesh& mesh, std::size_t first, const Lattice& lattice, double leastCosine)
+    : mesh_(mesh), first_(first), lattice_(lattice), leastCosine_(leastCosine)
+  {
+  }
+
+  std::vector<CreaseLoop> run(const Progress& progress)
+  {
+    std::size_t done = first_; // triangles before this have been looked at
+    for (const std::size_t t : this->bentTriangles(progress))
+    {
+      if (t >= done)
+      {
+        done = this->addLoopsAround(t, done);
+      }
+    }
+    return std::move(loops_);
+  }
+
+private:
+  bool isBent(std::size_t t) const
+  {
+    const Triangle& c = mesh_.triangles[t];
+    const Vec3& a = mesh_.normals[c[0]];
+    const Vec3& b = mesh_.normals[c[1]];
+    const Vec3& d = mesh_.normals[c[2]];
+    return std::min({ a.dot(b), b.dot(d), d.dot(a) }) < leastCosine_;
+  }
+
+  std::vector<std::size_t> bentTriangles(const Progress& progress) const
+  {
+    const std::size_t count = mesh_.triangles.size() - first_;
+    std::vector<std::vector<std::size_t>> parts((count + kGrain - 1) / kGrain);
+    parallelFor(count, kGrain,
+      [&](std::size_t begin, std::size_t end)
+      {
+        progress.check();
+        for (std::size_t k = begin; k < end; ++k)
+        {
+          if (this->isBent(first_ + k))
+          {
+            parts[k / kGrain].push_back(first_ + k);
+          }
+        }
+      });
+    std::vector<std::size_t> bent;
+    for (const std::vector<std::size_t>& part : parts)
+    {
+      bent.insert(bent.end(), part.begin(), part.end());
+    }
+    return bent;
+  }
+
+  Index3 cellOfTriangle(std::size_t t) const
+  {
+    const Triangle& c = mesh_.triangles[t];
+    return cellOf(lattice_, (mesh_.points[c[0]] + mesh_.points[c[1]] + mesh_.points[c[2]]) / 3.0);
+  }
+
+  /// Parts all triangles in the cell of t into polygons. \return the end of these triangles.
+  std::size_t addLoopsAround(std::size_t t, std::size_t least)
+  {
+    const Index3 cell = this->cellOfTriangle(t);
+    std::size_t begin = t;
+    while (begin > least && this->cellOfTriangle(begin - 1) == cell)
+    {
+      --begin;
+    }
+    std::size_t end = t + 1;
+    while (end < mesh_.triangles.size() && this->cellOfTriangle(end) == cell)
+    {
+      ++end;
+    }
+    this->joinTriangles(begin, end);
+    for (std::size_t k = begin; k < end;)
+    {
+      std::size_t next = k + 1;
+      while (next < end && this->rootOf(next - begin) == this->rootOf(k - begin))
+      {
+        ++next;
+      }
+      this->addLoop(cell, k, next);
+      k = next;
+    }
+    return end;
+  }
+
+  void joinTriangles(std::size_t begin, std::size_t end)
+  {
+    parent_.resize(end - begin);
+    std::iota(parent_.begin(), parent_.end(), 0);
+    this->collectSides(begin, end);
+    for (const Side& side : sides_)
+    {
+      if (const Side* twin = this->twinOf(side))
+      {
+        parent_[this->rootOf(side.triangle - begin)] = this->rootOf(twin->triangle - begin);
+      }
+    }
+  }
+
+  std::size_t rootOf(std::size_t k) const
+  {
+    while (parent_[k] != k)
+    {
+      k = parent_[k];
+    }
+    return k;
+  }
+
+  void collectSides(std::size_t begin, std::size_t end)
+  {
+    sides_.clear();
+    for (std::size_t t = begin; t < end; ++t)
+    {
+      const Triangle& c = mesh_.triangles[t];
+      for (int k = 0; k < 3; ++k)
+      {
+        sides_.push_back({ c[k], c[(k + 1) % 3], static_cast<std::int32_t>(t) });
+      }
+    }
+    std::sort(sides_.begin(), sides_.end());
+  }
+
+  const Side* twinOf(const Side& side) const
+  {
+    const Side wanted{ side.to, side.from, 0 };
+    const auto found = std::lower_bound(sides_.begin(), sides_.end(), wanted);
+    return found != sides_.end() && found->from == side.to && found->to == side.from ? &*found
+                                                                                     : nullptr;
+  }
+
+  void addLoop(const Index3& cell, std::size_t begin, std::size_t end)
+  {
+    bool bent = false;
+    for (std::size_t t = begin; t < end && !bent; ++t)
+    {
+      bent = this->isBent(t);
+    }
+    CreaseLoop loop{ cell, begin, end - begin, {} };
+    if (bent && this->findRim(loop) && LoopFinder::isDisc(loop))
+    {
+      loops_.push_back(std::move(loop));
+    }
+  }
+
+  /// With at most one point in its midst.
+  static bool isDisc(const CreaseLoop& loop)
+  {
+    const std::size_t sides = loop.corners.size();
+    return loop.triangleCount + 2 == sides || loop.triangleCount == sides;
+  }
+
+  /// \return false where the rim is not one closed line.
+  bool findRim(CreaseLoop& loop)
+  {
+    this->collectSides(loop.firstTriangle, loop.firstTriangle + loop.triangleCount);
+    std::vector<Side> rim; // by rising `from`, as the sides are
+    std::copy_if(sides_.begin(), sides_.end(), std::back_inserter(rim),
+      [&](const Side& side) { return !this->twinOf(side); });
+    while (loop.corners.size() < rim.size())
+    {
+      const std::int32_t at = loop.corners.empty() ? rim.front().from : last_;
+      const auto found = std::lower_bound(rim.begin(), rim.end(), at,
+        [](const Side& side, std::int32_t point) { return side.from < point; });
+      const bool again = !loop.corners.empty() && at == loop.corners.front();
+      if (again || found == rim.end() || found->from != at)
+      {
+        return false;
+      }
+      loop.corners.push_back(at);
+      last_ = found->to;
+    }
+    return !rim.empty() && last_ == loop.corners.front();
+  }
+
+  const TriangleMesh& mesh_;
+  const std::size_t first_;
+  const Lattice& lattice_;
+  const double leastCosine_;
+  std::vector<CreaseLoop> loops_;
+  std::vector<Side> sides_; ///< of the triangles at hand, sorted
+  std::vector<std::size_t> parent_;
+  std::int32_t last_ = 0;
+};
+
+} // namespace
+
+std::vector<CreaseLoop> findCreaseLoops(const TriangleMesh& mesh, std::size_t first,
+  const Lattice& lattice, double leastCosine, const Progress& progress)
+{
+  return LoopFinder(mesh, first, lattice, leastCosine).run(progress);
+}
+
+Index3 cellOf(const Lattice& lattice, const Vec3& point)
+{
+  const Vec3 place = ((point - lattice.origin) / lattice.cellSize).array().floor();
+  return { static_cast<std::int64_t>(place.x()), static_cast<std::int64_t>(place.y()),
+    static_cast<std::int64_t>(place.z()) };
+}
+
+} // namespace hybridtree

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/polygonize/CreasePlanes.h"
+
+#include <Eigen/Eigenvalues>
+
+namespace hybridtree
+{
+namespace
+{
+
+constexpr double kEdgeRank = 0.004;  // least second and
+constexpr double kCornerRank = 0.03; // third eigenvalue, to the first
+
+/// The two planes whose normals are furthest apart, and the cosine between these.
+double leastCosine(const TouchingPlanes& planes, std::size_t& first, std::size_t& second)
+{
+  double least = 2.0;
+  for (std::size_t a = 0; a < planes.size(); ++a)
+  {
+    for (std::size_t b = a + 1; b < planes.size(); ++b)
+    {
+      const double cosine = planes[a].normal.dot(planes[b].normal);
+      if (cosine < least)
+      {
+        least = cosine;
+        first = a;
+        second = b;
+      }
+    }
+  }
+  return std::clamp(least, -1.0, 1.0);
+}
+
+} // namespace
+
+TouchingPlane TouchingPlane::of(const Vec3& at, double value, const Vec3& gradient)
+{
+  const double slope = gradient.norm();
+  return { gradient / -slope, at, (value - kThreshold) / slope, slope };
+}
+
+Meeting meetingOf(const TouchingPlanes& planes, const Vec3& near, double reach)
+{
+  Mat3 squares = Mat3::Zero();
+  Vec3 sum = Vec3::Zero();
+  for (const TouchingPlane& plane : planes)
+  {
+    squares += plane.normal * plane.normal.transpose();
+    sum -= plane.normal * plane.distance(near);
+  }
+  const Eigen::SelfAdjointEigenSolver<Mat3> solver(squares); // eigenvalues rise
+  const Vec3& value = solver.eigenvalues();
+  const Mat3& axis = solver.eigenvectors();
+  if (!(value[1] > kEdgeRank * value[2]))
+  {
+    return {};
+  }
+  Vec3 move = axis.col(2) * (axis.col(2).dot(sum) / value[2]) +
+    axis.col(1) * (axis.col(1).dot(sum) / value[1]);
+  Vec3 edge = axis.col(0);
+  if (value[0] > kCornerRank * value[2])
+  {
+    const Vec3 along = edge * (edge.dot(sum) / value[0]);
+    if ((move + along).norm() <= reach)
+    {
+      move += along;
+      edge.setZero();
+    }
+  }
+  return { move.norm() <= reach, near + move, edge };
+}
+
+double widestAngle(const TouchingPlanes& planes)
+{
+  std::size_t first = 0;
+  std::size_t second = 0;
+  return std::acos(leastCosine(planes, first, second));
+}
+
+Vec3 middleNormal(const TouchingPlanes& planes, double leastAngle)
+{
+  std::size_t first = 0;
+  std::size_t second = 0;
+  leastCosine(planes, first, second);
+  std::vector<Vec3> faces{ planes[first].normal, planes[second].normal };
+  Vec3 sum = faces[0] + faces[1];
+  for (const TouchingPlane& plane : planes)
+  {
+    const bool known = std::any_of(faces.begin(), faces.end(),
+      [&](const Vec3& face) { return face.dot(plane.normal) > std::cos(leastAngle); });
+    if (!known)
+    {
+      faces.push_back(plane.normal);
+      sum += plane.normal;
+    }
+  }
+  return sum;
+}
+
+void LinePart::clip(double height, double slope)
+{
+  begin = slope > 0.0 ? std::max(begin, -height / slope) : begin;
+  end = slope < 0.0 ? std::min(end, -height / slope) : end;
+  end = slope == 0.0 && height < 0.0 ? -std::numeric_limits<double>::infinity() : end;
+}
+
+} // namespace hybridtree

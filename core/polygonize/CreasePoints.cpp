@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/polygonize/CreasePoints.h"
+
+#include "core/base/Parallel.h"
+#include "core/base/Scratch.h"
+#include "core/polygonize/CreasePolygon.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace hybridtree
+{
+namespace
+{
+
+// Shares of the way from the point to the corners at which the field is asked.
+constexpr double kWays[] = { 1.0, 0.5, 0.2, 0.1, 0.02 };
+constexpr int kSteps = 5;
+constexpr int kShifting = 2; // the step after which it moves along the crease no more,
+constexpr int kJudging = 3;  // and the one at which it must look like a crease
+
+constexpr double kLeastShare = 0.5;  // of the angle between the corners' normals that is left there
+constexpr double kFarthest = 1.2;    // cells, from the middle of the polygon
+constexpr double kBeyondCell = 0.75; // cells
+constexpr double kOnSurface = 1e-6;  // cells
+constexpr double kWorthIt = 2e-3;    // cells, that the point must be off the polygon's middle
+constexpr double kStraight = 0.1;    // cells, that the surface may be off the lines to the corners
+constexpr double kReach = 0.3;       // cells, in which the surface is looked for
+constexpr int kProbes = 6;           // to each side
+constexpr int kBisections = 18;
+constexpr double kMargin = 2.0; // cells around the polygons in which the field is asked
+
+/// Search on one polygon.
+struct Search
+{
+  CreasePolygon polygon;
+  std::size_t loop = 0;
+  Vec3 middle = Vec3::Zero();
+  Vec3 target = Vec3::Zero(); ///< on an edge, the point next to this is wanted
+  Vec3 point = Vec3::Zero();
+  TouchingPlanes planes;  ///< one for each corner, from the last step
+  double wideAngle = 0.0; ///< between the normals at the corners
+  bool alive = true;
+};
+
+/// The polygons of one task, which lie together.
+class PointFinder
+{
+public:
+  PointFinder(const FieldSource& field, const Lattice& lattice, const TriangleMesh& mesh,
+    const CreaseLoop* loops, std::size_t count, double leastAngle, CreasePoint* result)
+    : field_(field), leastAngle_(leastAngle), cell_(lattice.cellSize), result_(result)
+  {
+    searches_.reserve(count);
+    for (std::size_t k = 0; k < count; ++k)
+    {
+      const CreasePolygon polygon(mesh, lattice, loops[k], std::cos(leastAngle));
+      const Vec3 middle = polygon.middle();
+      searches_.push_back({ polygon, k, middle, middle, middle, TouchingPlanes(polygon.size()) });
+    }
+  }
+
+  void run()
+  {
+    for (int step = 0; step < kSteps; ++step)
+    {
+      this->ask(kWays[step]);
+      for (Search& search : searches_)
+      {
+        search.alive = search.alive && this->narrow(search, step);
+      }
+    }
+    this->settle();
+    this->checkWays();
+    for (const Search& search : searches_)
+    {
+      result_[search.loop].found = search.alive;
+    }
+  }
+
+private:
+  /// New planes for all searches, from so far on the way to the corners.
+  void ask(double way)
+  {
+    std::size_t count = 0;
+    for (const Search& search : searches_)
+    {
+      count += search.alive ? search.planes.size() : 0;
+    }
+    ScratchVectors points(count), gradients(count);
+    ScratchArray values(count);
+    std::size_t next = 0;
+    for (const Search& search : searches_)
+    {
+      for (std::size_t k = 0; search.alive && k < search.planes.size(); ++k)
+      {
+        points.batch().set(next++, search.point + way * (search.polygon.corner(k) - search.point));
+      }
+    }
+    field_.fieldAndGradient(points.points(), values.data(), gradients.batch());
+    next = 0;
+    for (Search& search : searches_)
+    {
+      for (std::size_t k = 0; search.alive && k < search.planes.size(); ++k, ++next)
+      {
+        search.planes[k] =
+          TouchingPlane::of(points.points()[next], values[next], gradients.points()[next]);
+      }
+    }
+  }
+
+  /// One step nearer to the crease; false where there is none.
+  bool narrow(Search& search, int step)
+  {
+    for (const TouchingPlane& plane : search.planes)
+    {
+      if (!plane.normal.allFinite() || !(std::abs(plane.ahead) <= kFarthest * cell_))
+      {
+        return false;
+      }
+    }
+    if (step == 0)
+    {
+      search.wideAngle = widestAngle(search.planes);
+      this->keepNormals(search);
+    }
+    if (step == kJudging &&
+      widestAngle(search.planes) < std::max(leastAngle_, kLeastShare * search.wideAngle))
+    {
+      return false;
+    }
+    const std::optional<Vec3> halfWay =
+      step < kShifting ? search.polygon.halfWay(search.planes) : std::nullopt;
+    search.target = halfWay.value_or(search.target);
+    const Meeting meeting = meetingOf(search.planes, search.target, kFarthest * cell_);
+    search.point = meeting.point;
+    if (meeting.found && !meeting.edge.isZero() && step <= kShifting && !halfWay)
+    {
+      const double way =
+        step == kShifting ? search.polygon.toUpright(meeting) : search.polygon.toMiddle(meeting);
+      search.target = search.point = meeting.point + way * meeting.edge;
+    }
+    return meeting.found;
+  }
+
+  void keepNormals(Search& search)
+  {
+    std::vector<Vec3>& normals = result_[search.loop].cornerNormals;
+    for (const TouchingPlane& plane : search.planes)
+    {
+      normals.push_back(plane.normal);
+    }
+    search.polygon.setNormals(normals);
+  }
+
+  /// Puts the points exactly on the surface.
+  void settle()
+  {
+    for (Search& search : searches_)
+    {
+      if (!search.alive)
+      {
+        continue;
+      }
+      CreasePoint& result = result_[search.loop];
+      const Vec3 normal = middleNormal(search.planes, leastAngle_);
+      for (const TouchingPlane& plane : search.planes)
+      {
+        result.slope += plane.slope / static_cast<double>(search.planes.size());
+      }
+      const double gain = std::abs(normal.normalized().dot(search.point - search.middle));
+      search.alive = normal.norm() > 1e-3 && gain > kWorthIt * cell_;
+      result.normal = normal.normalized();
+      search.alive = search.alive &&
+        (std::abs(this->excessAt(search.point)) <= kOnSurface * cell_ * result.slope ||
+          this->moveToSurface(search.point, result.normal));
+      result.point = search.point;
+      search.alive = search.alive && search.polygon.beyondCell(search.point) <= kBeyondCell * cell_;
+    }
+  }
+
+  /// f - T.
+  double excessAt(const Vec3& p) const
+  {
+    double value = 0.0;
+    field_.field({ &p.x(), &p.y(), &p.z(), 1 }, &value);
+    return value - kThreshold;
+  }
+  bool isInside(const Vec3& p) const { return this->excessAt(p) >= 0.0; }
+
+  /// To the nearest change of side along the normal.
+  bool moveToSurface(Vec3& point, const Vec3& normal) const
+  {
+    const bool inside = this->isInside(point);
+    double before = 0.0;
+    for (int probe = 1; probe <= kProbes; ++probe)
+    {
+      const double step = kReach * cell_ * std::pow(0.25, kProbes - probe);
+      for (const double way : { step, -step })
+      {
+        if (this->isInside(point + way * normal) != inside)
+        {
+          double low = std::copysign(before, way);
+          double high = way;
+          for (int k = 0; k < kBisections; ++k)
+          {
+            const double middle = 0.5 * (low + high);
+            (this->isInside(point + middle * normal) == inside ? low : high) = middle;
+          }
+          point += 0.5 * (low + high) * normal;
+          return true;
+        }
+      }
+      before = step;
+    }
+    return false;
+  }
+
+  /// The surface must run straight from the point to the corners.
+  void checkWays()
+  {
+    this->ask(0.5);
+    for (Search& search : searches_)
+    {
+      for (std::size_t k = 0; search.alive && k < search.planes.size(); ++k)
+      {
+        search.alive = std::abs(search.planes[k].ahead) <= kStraight * cell_;
+      }
+    }
+  }
+
+  const FieldSource& field_;
+  const double leastAngle_;
+  const double cell_;
+  CreasePoint* result_;
+  std::vector<Search> searches_;
+};
+
+/// Loops before this, from the last one on, lie in one brick.
+std::vector<std::size_t> endsOfBricks(const std::vector<CreaseLoop>& loops)
+{
+  const auto brickOf = [](const CreaseLoop& loop) {
+    return Index3{ loop.cell[0] >> 3, loop.cell[1] >> 3, loop.cell[2] >> 3 };
+  };
+  std::vector<std::size_t> ends;
+  for (std::size_t k = 1; k <= loops.size(); ++k)
+  {
+    if (k == loops.size() || brickOf(loops[k]) != brickOf(loops[k - 1]))
+    {
+      ends.push_back(k);
+    }
+  }
+  return ends;
+}
+
+Box3 boxOf(const Lattice& lattice, const CreaseLoop* loops, std::size_t count)
+{
+  Box3 box;
+  for (std::size_t k = 0; k < count; ++k)
+  {
+    const Vec3 low = lattice.point(loops[k].cell);
+    box.extend(low - Vec3::Constant(kMargin * lattice.cellSize));
+    box.extend(low + Vec3::Constant((1.0 + kMargin) * lattice.cellSize));
+  }
+  return box;
+}
+
+} // namespace
+
+std::vector<CreasePoint> findCreasePoints(const FieldSource& field, const Lattice& lattice,
+  const TriangleMesh& mesh, const std::vector<CreaseLoop>& loops, double leastAngle,
+  const Progress& progress)
+{
+  std::vector<CreasePoint> points(loops.size());
+  const std::vector<std::size_t> ends = endsOfBricks(loops);
+  parallelFor(ends.size(), 1,
+    [&](std::size_t from, std::size_t to)
+    {
+      for (std::size_t k = from; k < to; ++k)
+      {
+        progress.check();
+        const std::size_t begin = k == 0 ? 0 : ends[k - 1];
+        const std::size_t count = ends[k] - begin;
+        if (const FieldSourcePtr near = field.restrictedTo(boxOf(lattice, &loops[begin], count)))
+        {
+          PointFinder(*near, lattice, mesh, &loops[begin], count, leastAngle, &points[begin]).run();
+        }
+      }
+    });
+  return points;
+}
+
+} // namespace hybridtree
