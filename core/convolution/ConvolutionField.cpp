@@ -1,19 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/convolution/ConvolutionField.h"
 
-#include "core/convolution/ElementBounds.h"
-
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 namespace hybridtree
 {
 namespace
 {
-
-// Points of a whole query that are handled together: few enough to be near each other.
-constexpr std::size_t kPart = 64;
 
 template <class Element>
 ElementTree treeOf(const std::vector<Element>& elements)
@@ -56,14 +50,18 @@ struct Ball
   }
 };
 
-Box3 boundsOf(PointBatch points)
+struct Spans
 {
-  Box3 box;
-  for (std::size_t k = 0; k < points.size; ++k)
-  {
-    box.extend(points[k]);
-  }
-  return box;
+  ElementSpan<SegmentElement> segments;
+  ElementSpan<TriangleElement> triangles;
+};
+
+Spans spansOf(const ElementSelection& selection, const double* weights)
+{
+  const std::size_t count = selection.segments.size();
+  return { { selection.segments.data(), count, weights },
+    { selection.triangles.data(), selection.triangles.size(),
+      weights ? weights + count : nullptr } };
 }
 
 } // namespace
@@ -108,19 +106,6 @@ void ConvolutionField::select(const Box3& box, ElementSelection& selection) cons
     });
 }
 
-void ConvolutionField::select(
-  const Box3& box, const ElementSelection& from, ElementSelection& selection) const
-{
-  const Ball ball(box);
-  const auto reached = [&](const auto* element) { return ball.isReachedBy(*element); };
-  selection.segments.clear();
-  selection.triangles.clear();
-  std::copy_if(
-    from.segments.begin(), from.segments.end(), std::back_inserter(selection.segments), reached);
-  std::copy_if(
-    from.triangles.begin(), from.triangles.end(), std::back_inserter(selection.triangles), reached);
-}
-
 std::size_t ConvolutionField::index(const SegmentElement* segment) const
 {
   return segmentTree_.order()[static_cast<std::size_t>(segment - segments_.data())];
@@ -131,71 +116,54 @@ std::size_t ConvolutionField::index(const TriangleElement* triangle) const
   return triangleTree_.order()[static_cast<std::size_t>(triangle - triangles_.data())];
 }
 
-template <typename Body>
-void ConvolutionField::forParts(PointBatch points, Body&& body) const
-{
-  static thread_local ElementSelection selection; // no allocation once warm
-  for (std::size_t begin = 0; begin < points.size; begin += kPart)
-  {
-    const PointBatch part = points.slice(begin, std::min(kPart, points.size - begin));
-    this->select(boundsOf(part), selection);
-    body(selection, part, begin);
-  }
-}
-
 void ConvolutionField::addField(
-  const ElementSelection* selection, PointBatch points, double* sum) const
+  const ElementSelection& selection, PointBatch points, double* sum, const double* weights) const
 {
-  if (selection)
-  {
-    const ConvolutionKernels& kernels = convolutionKernels(kernel_.kind);
-    kernels.addSegments(selection->segmentSpan(), kernel_, points, sum);
-    kernels.addTriangles(selection->triangleSpan(), kernel_, points, sum);
-    return;
-  }
-  this->forParts(points,
-    [&](const ElementSelection& reaching, PointBatch part, std::size_t begin)
-    { this->addField(&reaching, part, sum + begin); });
+  const ConvolutionKernels& kernels = convolutionKernels(kernel_.kind);
+  const auto [segments, triangles] = spansOf(selection, weights);
+  kernels.addSegments(segments, kernel_, points, sum);
+  kernels.addTriangles(triangles, kernel_, points, sum);
 }
 
-void ConvolutionField::addFieldAndGradient(
-  const ElementSelection* selection, PointBatch points, double* sum, VectorBatch gradientSum) const
+void ConvolutionField::addFieldAndGradient(const ElementSelection& selection, PointBatch points,
+  double* sum, VectorBatch gradientSum, const double* weights) const
 {
-  if (selection)
-  {
-    const ConvolutionKernels& kernels = convolutionKernels(kernel_.kind);
-    kernels.addSegmentsWithGradient(selection->segmentSpan(), kernel_, points, sum, gradientSum);
-    kernels.addTrianglesWithGradient(selection->triangleSpan(), kernel_, points, sum, gradientSum);
-    return;
-  }
-  this->forParts(points,
-    [&](const ElementSelection& reaching, PointBatch part, std::size_t begin)
-    { this->addFieldAndGradient(&reaching, part, sum + begin, gradientSum.slice(begin)); });
+  const ConvolutionKernels& kernels = convolutionKernels(kernel_.kind);
+  const auto [segments, triangles] = spansOf(selection, weights);
+  kernels.addSegmentsWithGradient(segments, kernel_, points, sum, gradientSum);
+  kernels.addTrianglesWithGradient(triangles, kernel_, points, sum, gradientSum);
 }
 
-Interval ConvolutionField::range(const ElementSelection& selection, const Box3& box) const
+void ConvolutionField::addBounds(
+  const ElementSelection& selection, const Box3& box, FieldBounds& bounds) const
 {
   const Ball ball(box);
-  FieldBounds bounds;
   const auto add = [&](const auto* element)
   {
-    addBounds(
+    hybridtree::addBounds(
       *element, kernel_, std::max(0.0, distanceTo(*element, ball.center) - ball.radius), bounds);
   };
   std::for_each(selection.segments.begin(), selection.segments.end(), add);
   std::for_each(selection.triangles.begin(), selection.triangles.end(), add);
+}
+
+Interval ConvolutionField::range(const ElementSelection& selection, const Box3& box) const
+{
+  FieldBounds bounds;
+  this->addBounds(selection, box, bounds);
   if (bounds.value == 0.0)
   {
     return {};
   }
   double center = 0.0;
   Vec3 slope = Vec3::Zero();
-  const Vec3& p = ball.center;
+  const Vec3 p = box.center();
   this->addFieldAndGradient(
-    &selection, { &p.x(), &p.y(), &p.z(), 1 }, &center, { &slope.x(), &slope.y(), &slope.z() });
+    selection, { &p.x(), &p.y(), &p.z(), 1 }, &center, { &slope.x(), &slope.y(), &slope.z() });
+  const double radius = 0.5 * box.diagonal().norm();
   const double linear = 0.5 * slope.cwiseAbs().dot(box.sizes());
-  const double most = std::min(
-    bounds.slope * ball.radius, linear + 0.5 * bounds.curvature * ball.radius * ball.radius);
+  const double most =
+    std::min(bounds.slope * radius, linear + 0.5 * bounds.curvature * radius * radius);
   const double rounding = 1e-13 * (1.0 + bounds.value);
   return { std::max(0.0, center - most - rounding),
     std::min(bounds.value, center + most) + rounding };

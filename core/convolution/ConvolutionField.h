@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/convolution/ConvolutionKernels.h"
+#include "core/convolution/ElementBounds.h"
 #include "core/convolution/ElementTree.h"
 
 #include <vector>
@@ -16,11 +17,6 @@ struct ElementSelection
   std::vector<const TriangleElement*> triangles;
 
   bool empty() const { return segments.empty() && triangles.empty(); }
-  ElementSpan<SegmentElement> segmentSpan() const { return { segments.data(), segments.size() }; }
-  ElementSpan<TriangleElement> triangleSpan() const
-  {
-    return { triangles.data(), triangles.size() };
-  }
 };
 
 /// The sum of the fields of segments and triangles ([SUB] 3), in closed form, with a hierarchy over
@@ -40,8 +36,6 @@ public:
 
   /// The elements that reach the box: all of them, and few others. Overwrites `selection`.
   void select(const Box3& box, ElementSelection& selection) const;
-  /// Those of `from` that do.
-  void select(const Box3& box, const ElementSelection& from, ElementSelection& selection) const;
 
   ///@{
   /// Places of selected elements in the arrays that the constructor was given.
@@ -50,19 +44,20 @@ public:
   ///@}
 
   ///@{
-  /// \param selection null for all elements, when the points may be anywhere.
-  void addField(const ElementSelection* selection, PointBatch points, double* sum) const;
-  void addFieldAndGradient(const ElementSelection* selection, PointBatch points, double* sum,
-    VectorBatch gradientSum) const;
+  /// \param weights null, or by how much each element counts: segments first.
+  void addField(const ElementSelection& selection, PointBatch points, double* sum,
+    const double* weights = nullptr) const;
+  void addFieldAndGradient(const ElementSelection& selection, PointBatch points, double* sum,
+    VectorBatch gradientSum, const double* weights = nullptr) const;
   ///@}
+
+  /// Adds bounds that hold in the whole box.
+  void addBounds(const ElementSelection& selection, const Box3& box, FieldBounds& bounds) const;
 
   /// Bounds of the field in a box. \pre the selection is that of the box or of a larger one.
   Interval range(const ElementSelection& selection, const Box3& box) const;
 
 private:
-  template <typename Body>
-  void forParts(PointBatch points, Body&& body) const;
-
   ConvolutionKernel kernel_;
   std::vector<SegmentElement> segments_; ///< in the order of their tree
   std::vector<TriangleElement> triangles_;

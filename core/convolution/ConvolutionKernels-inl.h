@@ -218,8 +218,8 @@ HWY_INLINE void addTriangleGradient(const TriangleElement& element, const Triang
 }
 
 // Loop bodies for forEachVector(). Integral has
-// - bool add(const Element&, V x, V y, V z, V& value) const,
-// - bool addWithGradient(const Element&, V x, V y, V z, V& value, V& gx, V& gy, V& gz) const,
+// - void add(const Element&, V x, V y, V z, V& value) const,
+// - void addWithGradient(const Element&, V x, V y, V z, V& value, V& gx, V& gy, V& gz) const,
 // and the amplitude, by which sums are multiplied in the end.
 template <class Element, class Integral>
 struct AddElementsBody
@@ -235,7 +235,9 @@ struct AddElementsBody
     V value = hn::Zero(d);
     for (std::size_t k = 0; k < span.count; ++k)
     {
-      integral.add(*span.elements[k], hn::LoadU(d, x), hn::LoadU(d, y), hn::LoadU(d, z), value);
+      V part = hn::Zero(d);
+      integral.add(*span.elements[k], hn::LoadU(d, x), hn::LoadU(d, y), hn::LoadU(d, z), part);
+      value = span.weights ? hn::MulAdd(set(span.weights[k]), part, value) : hn::Add(value, part);
     }
     hn::StoreU(hn::MulAdd(set(amplitude), value, hn::LoadU(d, out[0])), d, out[0]);
   }
@@ -255,8 +257,14 @@ struct AddElementsWithGradientBody
     V sum[4] = { hn::Zero(d), hn::Zero(d), hn::Zero(d), hn::Zero(d) };
     for (std::size_t k = 0; k < span.count; ++k)
     {
+      V part[4] = { hn::Zero(d), hn::Zero(d), hn::Zero(d), hn::Zero(d) };
       integral.addWithGradient(*span.elements[k], hn::LoadU(d, x), hn::LoadU(d, y), hn::LoadU(d, z),
-        sum[0], sum[1], sum[2], sum[3]);
+        part[0], part[1], part[2], part[3]);
+      const V weight = set(span.weights ? span.weights[k] : 1.0);
+      for (std::size_t i = 0; i < 4; ++i)
+      {
+        sum[i] = hn::MulAdd(weight, part[i], sum[i]);
+      }
     }
     for (std::size_t k = 0; k < 4; ++k)
     {

@@ -9,12 +9,14 @@
 namespace hybridtree
 {
 
-/// Elements by pointers: those that reach a place, wherever they are stored.
+/// Elements by pointers: those that reach a place, wherever they are stored; each counts by its
+/// weight where there are weights.
 template <class Element>
 struct ElementSpan
 {
   const Element* const* elements = nullptr;
   std::size_t count = 0;
+  const double* weights = nullptr;
 };
 
 /// Batched sums of closed-form integrals over elements. A value depends on its point alone, not on

@@ -21,6 +21,8 @@ namespace
 constexpr EnumNames<SubdivisionScheme, 2> kSchemes{ "Scheme", "scheme",
   { "approximating", "interpolating" } };
 constexpr EnumNames<KernelKind, 1> kKernels{ "Kernel", "kernel", { "compact" } };
+constexpr EnumNames<BlendingKind, 3> kBlendings{ "Blending", "blending",
+  { "all", "neighbours", "paper" } };
 constexpr EnumNames<SkeletonRadius, 2> kRadii{ "Radius", "radius", { "linear", "constant" } };
 
 // The kernels' reaches at the corners of one element.
@@ -41,36 +43,70 @@ std::array<double, N> reachesOf(const RefinedSkeleton& skeleton,
   return reaches;
 }
 
-ConvolutionField makeField(
-  const RefinedSkeleton& skeleton, const SubdivisionSkeletonOptions& options)
+// Weights of the parent's corners.
+std::array<double, 3> weightsAt(double u)
 {
-  const auto point = [&](std::int32_t index)
-  { return skeleton.points[static_cast<std::size_t>(index)]; };
-  std::vector<SegmentElement> segments;
-  for (const SkeletonSegment& ends : skeleton.segments)
+  return { 1.0 - u, u, 0.0 };
+}
+
+std::array<double, 3> weightsAt(const Eigen::Vector2d& place)
+{
+  return { 1.0 - place[0] - place[1], place[0], place[1] };
+}
+
+template <std::size_t N, typename Places>
+GroupedElement<N> child(const RefinedSkeleton& skeleton, const std::array<std::int32_t, N>& corners,
+  const Places& places, std::size_t group, const SubdivisionSkeletonOptions& options)
+{
+  GroupedElement<N> element{ corners, reachesOf(skeleton, corners, options), {},
+    static_cast<std::int32_t>(group) };
+  for (std::size_t k = 0; k < N; ++k)
   {
-    const std::array<double, 2> reaches = reachesOf(skeleton, ends, options);
-    segments.push_back(makeSegmentElement(point(ends[0]), point(ends[1]), reaches[0], reaches[1]));
+    element.weights[k] = weightsAt(places[k]);
   }
-  std::vector<TriangleElement> triangles;
-  for (const Triangle& corners : skeleton.triangles)
+  return element;
+}
+
+// The children of one coarse element are a group: coarse segments first.
+GroupedElements groupedElements(const SkeletonGraph& coarse, const RefinedSkeleton& skeleton,
+  const SubdivisionSkeletonOptions& options)
+{
+  GroupedElements elements;
+  elements.points = skeleton.points;
+  for (const double radius : skeleton.radii)
   {
-    triangles.push_back(
-      makeTriangleElement({ point(corners[0]), point(corners[1]), point(corners[2]) },
-        reachesOf(skeleton, corners, options)));
+    elements.reaches.push_back(options.kernel.influenceRatio * radius);
   }
-  return ConvolutionField(options.kernel, segments, triangles);
+  for (std::size_t k = 0; k < skeleton.segments.size(); ++k)
+  {
+    elements.segments.push_back(child(skeleton, skeleton.segments[k], skeleton.segmentParameters[k],
+      static_cast<std::size_t>(skeleton.segmentParents[k]), options));
+  }
+  for (std::size_t k = 0; k < skeleton.triangles.size(); ++k)
+  {
+    elements.triangles.push_back(
+      child(skeleton, skeleton.triangles[k], skeleton.triangleParameters[k],
+        coarse.segments.size() + static_cast<std::size_t>(skeleton.triangleParents[k]), options));
+  }
+  for (const SkeletonSegment& ends : coarse.segments)
+  {
+    elements.groups.push_back({ ends[0], ends[1], -1 });
+  }
+  elements.groups.insert(elements.groups.end(), coarse.triangles.begin(), coarse.triangles.end());
+  return elements;
 }
 
 SubdivisionSkeleton::ShapePtr makeShape(
   const SkeletonGraph& graph, const SubdivisionSkeletonOptions& options)
 {
   validate(options.kernel);
+  validate(options.blending);
+  kBlendings.check(options.blending.kind);
   kSchemes.check(options.scheme);
   kKernels.check(options.kernel.kind);
   kRadii.check(options.radius);
   RefinedSkeleton refined = subdivide(graph, options.scheme, options.level);
-  ConvolutionField field = makeField(refined, options);
+  BlendedField field(options.kernel, options.blending, groupedElements(graph, refined, options));
   return std::make_shared<SubdivisionSkeleton::Shape>(
     SubdivisionSkeleton::Shape{ graph, options, std::move(refined), std::move(field) });
 }
@@ -144,7 +180,7 @@ struct SubdivisionSkeleton::Placement
 class SubdivisionSkeleton::Restriction final : public FieldSource
 {
 public:
-  Restriction(const SubdivisionSkeleton& leaf, ElementSelection selection)
+  Restriction(const SubdivisionSkeleton& leaf, BlendSelection selection)
     : leaf_(leaf), selection_(std::move(selection))
   {
   }
@@ -168,16 +204,11 @@ public:
     leaf_.addSelected(&selection_, points, sum, gradientSum);
   }
   Interval range(const Box3& box) const override { return leaf_.rangeOf(selection_, box); }
-  FieldSourcePtr restrictedTo(const Box3& box) const override
-  {
-    ElementSelection fewer;
-    leaf_.convolution().select(leaf_.toOwnSpace(box), selection_, fewer);
-    return fewer.empty() ? nullptr : std::make_shared<Restriction>(leaf_, std::move(fewer));
-  }
+  FieldSourcePtr restrictedTo(const Box3& box) const override { return leaf_.restrictedTo(box); }
 
 private:
   const SubdivisionSkeleton& leaf_;
-  ElementSelection selection_;
+  BlendSelection selection_;
 };
 
 SubdivisionSkeleton::SubdivisionSkeleton(ShapePtr shape, const Affine3& map)
@@ -204,15 +235,16 @@ Box3 SubdivisionSkeleton::toOwnSpace(const Box3& box) const
 SubdivisionSkeleton::Reaching SubdivisionSkeleton::elementsReaching(const Box3& box) const
 {
   ElementSelection selection;
-  this->convolution().select(this->toOwnSpace(box), selection);
+  const ConvolutionField& convolution = this->convolution().sum();
+  convolution.select(this->toOwnSpace(box), selection);
   Reaching reaching;
   for (const SegmentElement* segment : selection.segments)
   {
-    reaching.segments.push_back(this->convolution().index(segment));
+    reaching.segments.push_back(convolution.index(segment));
   }
   for (const TriangleElement* triangle : selection.triangles)
   {
-    reaching.triangles.push_back(this->convolution().index(triangle));
+    reaching.triangles.push_back(convolution.index(triangle));
   }
   std::sort(reaching.segments.begin(), reaching.segments.end());
   std::sort(reaching.triangles.begin(), reaching.triangles.end());
@@ -220,7 +252,7 @@ SubdivisionSkeleton::Reaching SubdivisionSkeleton::elementsReaching(const Box3& 
 }
 
 void SubdivisionSkeleton::addSelected(
-  const ElementSelection* selection, PointBatch points, double* sum) const
+  const BlendSelection* selection, PointBatch points, double* sum) const
 {
   if (!placement_ && !this->isNegative())
   {
@@ -238,7 +270,7 @@ void SubdivisionSkeleton::addSelected(
 }
 
 void SubdivisionSkeleton::addSelected(
-  const ElementSelection* selection, PointBatch points, double* sum, VectorBatch gradientSum) const
+  const BlendSelection* selection, PointBatch points, double* sum, VectorBatch gradientSum) const
 {
   if (!placement_ && !this->isNegative())
   {
@@ -284,7 +316,7 @@ void SubdivisionSkeleton::addFieldAndGradient(
   this->addSelected(nullptr, points, sum, gradientSum);
 }
 
-Interval SubdivisionSkeleton::rangeOf(const ElementSelection& selection, const Box3& box) const
+Interval SubdivisionSkeleton::rangeOf(const BlendSelection& selection, const Box3& box) const
 {
   const Interval range = this->convolution().range(selection, this->toOwnSpace(box));
   return this->isNegative() ? -range : range;
@@ -292,14 +324,14 @@ Interval SubdivisionSkeleton::rangeOf(const ElementSelection& selection, const B
 
 Interval SubdivisionSkeleton::range(const Box3& box) const
 {
-  static thread_local ElementSelection selection; // no allocation once warm
+  static thread_local BlendSelection selection; // no allocation once warm
   this->convolution().select(this->toOwnSpace(box), selection);
   return this->rangeOf(selection, box);
 }
 
 FieldSourcePtr SubdivisionSkeleton::restrictedTo(const Box3& box) const
 {
-  ElementSelection selection;
+  BlendSelection selection;
   this->convolution().select(this->toOwnSpace(box), selection);
   return selection.empty() ? nullptr : std::make_shared<Restriction>(*this, std::move(selection));
 }
@@ -380,6 +412,8 @@ Parameters SubdivisionSkeleton::parameters() const
   parameters.set("exponent", options.kernel.exponent);
   parameters.set("influenceRatio", options.kernel.influenceRatio);
   kRadii.describe(options.radius, parameters);
+  kBlendings.describe(options.blending.kind, parameters);
+  parameters.set("blendDistance", options.blending.distance);
   parameters.set("negative", options.negative);
   if (placement_)
   {
@@ -447,6 +481,8 @@ NodePtr subdivisionSkeletonFromParameters(
   options.kernel.exponent = parameters.getInt("exponent");
   options.kernel.influenceRatio = parameters.getDouble("influenceRatio");
   options.radius = kRadii.from(parameters);
+  options.blending.kind = kBlendings.from(parameters);
+  options.blending.distance = parameters.getDouble("blendDistance");
   options.negative = parameters.getBool("negative");
   const Affine3 map =
     parameters.has("map") ? parameters.getAffine("map") : Affine3(Affine3::Identity());

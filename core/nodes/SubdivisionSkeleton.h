@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "core/convolution/ConvolutionField.h"
+#include "core/convolution/BlendedField.h"
 #include "core/nodes/Node.h"
 #include "core/nodes/NodeMaker.h"
 #include "core/subdivision/Subdivide.h"
@@ -25,6 +25,7 @@ struct SubdivisionSkeletonOptions
   SubdivisionScheme scheme = SubdivisionScheme::Approximating;
   int level = 1; ///< steps of subdivision, 0 to 6
   ConvolutionKernel kernel;
+  BlendingControl blending;
   SkeletonRadius radius = SkeletonRadius::Linear;
   bool negative = false; ///< carves where something blends with it; no surface of its own
 };
@@ -32,10 +33,11 @@ struct SubdivisionSkeletonOptions
 /// Leaf: a convolution along a subdivision skeleton ([SUB]), seen through a matrix: f(p) =
 /// F(M^-1 p), M being the identity for all but images under non-similarities.
 ///
-/// F is the sum over all elements of the refined skeleton of core/convolution's closed forms. A
-/// long straight curve and a wide flat sheet of one radius have their surface at that radius; ends
-/// are shorter and junctions thicker, and an element much shorter than its radius that stands alone
-/// has no surface. Splitting an element changes nothing.
+/// F is the sum over the elements of the refined skeleton of core/convolution's closed forms, or
+/// with blending control the largest of several such sums (BlendedField.h). A long straight curve
+/// and a wide flat sheet of one radius have their surface at that radius; ends are shorter and
+/// junctions thicker, and an element much shorter than its radius that stands alone has no surface.
+/// Splitting an element changes nothing.
 class SubdivisionSkeleton final : public Node
 {
 public:
@@ -45,7 +47,7 @@ public:
     SkeletonGraph coarse;
     SubdivisionSkeletonOptions options;
     RefinedSkeleton refined;
-    ConvolutionField field;
+    BlendedField field;
   };
   using ShapePtr = std::shared_ptr<const Shape>;
 
@@ -57,7 +59,7 @@ public:
   const RefinedSkeleton& refined() const { return shape_->refined; }
   const SubdivisionSkeletonOptions& options() const { return shape_->options; }
   /// Of positive sign, whatever the node's.
-  const ConvolutionField& convolution() const { return shape_->field; }
+  const BlendedField& convolution() const { return shape_->field; }
   /// From the space of the skeleton to that of the node; empty for the identity.
   std::optional<Affine3> map() const;
 
@@ -103,10 +105,10 @@ private:
 
   Box3 toOwnSpace(const Box3& box) const;
   // With the elements of the selection, or all for null.
-  void addSelected(const ElementSelection* selection, PointBatch points, double* sum) const;
-  void addSelected(const ElementSelection* selection, PointBatch points, double* sum,
-    VectorBatch gradientSum) const;
-  Interval rangeOf(const ElementSelection& selection, const Box3& box) const;
+  void addSelected(const BlendSelection* selection, PointBatch points, double* sum) const;
+  void addSelected(
+    const BlendSelection* selection, PointBatch points, double* sum, VectorBatch gradientSum) const;
+  Interval rangeOf(const BlendSelection& selection, const Box3& box) const;
   double sign() const { return this->isNegative() ? -1.0 : 1.0; }
 
   ShapePtr shape_;

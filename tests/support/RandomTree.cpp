@@ -182,6 +182,7 @@ private:
     options.level = random_.integer(0, 2);
     options.kernel.exponent = random_.integer(2, 4);
     options.kernel.influenceRatio = random_.uniform(1.5, 2.5);
+    options.blending.kind = options.level == 1 ? BlendingKind::Neighbours : BlendingKind::All;
     options.negative = negative;
     return makeSubdivisionSkeleton(graph, options);
   }

@@ -323,6 +323,18 @@ SkeletonGraph sheet()
   return graph;
 }
 
+// Limbs that come back to where they started.
+SkeletonGraph folded()
+{
+  SkeletonGraph graph;
+  graph.points = { Vec3(-0.6, 0, 0), Vec3(0.1, 0.1, 0), Vec3(0.6, 0.2, 0.1), Vec3(0.2, 0.4, 0.2),
+    Vec3(-0.4, 0.35, 0.1), Vec3(0.8, -0.4, 0) };
+  graph.radii = { 0.12, 0.1, 0.12, 0.1, 0.12, 0.1 };
+  graph.segments = { { 0, 1 }, { 1, 2 }, { 2, 3 }, { 3, 4 } };
+  graph.triangles = { { 1, 5, 2 } };
+  return graph;
+}
+
 void addSkeletons(std::vector<NodeCase>& cases)
 {
   SubdivisionSkeletonOptions options;
@@ -338,6 +350,12 @@ void addSkeletons(std::vector<NodeCase>& cases)
   options.level = 0;
   options.kernel.exponent = 5;
   cases.push_back({ "SkeletonOfConstantRadii", makeSubdivisionSkeleton(sheet(), options) });
+  options.blending.kind = BlendingKind::Neighbours;
+  options.kernel.exponent = 3;
+  cases.push_back({ "SkeletonOfNeighbours", makeSubdivisionSkeleton(folded(), options) });
+  options.blending.kind = BlendingKind::Paper;
+  cases.push_back({ "SkeletonAsInThePaper", makeSubdivisionSkeleton(branches(), options) });
+  options.blending.kind = BlendingKind::All;
   options.negative = true;
   cases.push_back({ "SkeletonHole", makeSubdivisionSkeleton(branches(), options) });
   cases.push_back({ "BlendWithSkeletons",

@@ -1,0 +1,335 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/convolution/BlendPieces.h"
+
+#include "core/base/Error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+
+namespace hybridtree
+{
+namespace
+{
+
+constexpr double kPieceLength = 0.5; // in units of R
+constexpr int kMostParts = 1024;     // of a segment
+constexpr int kMostSides = 32;       // parts of a triangle's edge
+
+int partsOf(double length, double reach, int most)
+{
+  return static_cast<int>(
+    std::clamp(std::ceil(length / (kPieceLength * reach)), 1.0, double(most)));
+}
+
+// What the corners of an element have, weighted.
+template <std::size_t N>
+struct Weighted
+{
+  std::array<double, N> weights;
+
+  template <typename Values>
+  auto operator()(const Values& values) const
+  {
+    typename Values::value_type sum = weights[0] * values[0];
+    for (std::size_t k = 1; k < N; ++k)
+    {
+      sum += weights[k] * values[k];
+    }
+    return sum;
+  }
+};
+
+template <std::size_t N>
+std::array<Vec3, N> cornersOf(const GroupedElements& elements, const GroupedElement<N>& element)
+{
+  std::array<Vec3, N> corners;
+  for (std::size_t k = 0; k < N; ++k)
+  {
+    corners[k] = elements.points[static_cast<std::size_t>(element.corners[k])];
+  }
+  return corners;
+}
+
+// Distances along the skeleton.
+class GraphPlaces
+{
+public:
+  GraphPlaces(const GroupedElements& elements, double limit)
+    : elements_(elements), limit_(limit), distances_(groupDistances(elements, limit))
+  {
+  }
+
+  BlendPieces::Place at(const GroupedElement<2>& segment, const Weighted<2>& where) const
+  {
+    const auto a = static_cast<std::size_t>(segment.corners[0]);
+    const auto b = static_cast<std::size_t>(segment.corners[1]);
+    const double length = 2.0 * (elements_.points[a] - elements_.points[b]).norm() /
+      (elements_.reaches[a] + elements_.reaches[b]);
+    return this->place(segment,
+      [&](const std::array<double, 2>& ends) {
+        return std::min(ends[0] + where.weights[1] * length, ends[1] + where.weights[0] * length);
+      });
+  }
+  // Linear over a triangle.
+  BlendPieces::Place at(const GroupedElement<3>& triangle, const Weighted<3>& where) const
+  {
+    return this->place(
+      triangle, [&](const std::array<double, 3>& corners) { return where(corners); });
+  }
+
+  std::vector<std::vector<std::int32_t>> neighbours() const
+  {
+    std::vector<std::vector<std::int32_t>> lists(elements_.groups.size());
+    this->collect(elements_.segments, lists);
+    this->collect(elements_.triangles, lists);
+    for (std::size_t group = 0; group < lists.size(); ++group)
+    {
+      std::vector<std::int32_t>& list = lists[group];
+      std::sort(list.begin(), list.end());
+      list.erase(std::unique(list.begin(), list.end()), list.end());
+      list.erase(
+        std::remove(list.begin(), list.end(), static_cast<std::int32_t>(group)), list.end());
+    }
+    return lists;
+  }
+
+private:
+  // Absent from the list of a corner: farther than any limit.
+  template <std::size_t N, typename Distance>
+  BlendPieces::Place place(const GroupedElement<N>& element, const Distance& distance) const
+  {
+    BlendPieces::Place place{ element.group, {} };
+    std::vector<std::int32_t> groups;
+    for (const std::int32_t corner : element.corners)
+    {
+      for (const GroupDistance& near : distances_[static_cast<std::size_t>(corner)])
+      {
+        groups.push_back(near.group);
+      }
+    }
+    std::sort(groups.begin(), groups.end());
+    groups.erase(std::unique(groups.begin(), groups.end()), groups.end());
+    for (const std::int32_t group : groups)
+    {
+      std::array<double, N> corners;
+      for (std::size_t k = 0; k < N; ++k)
+      {
+        corners[k] = this->distance(element.corners[k], group);
+      }
+      const double value = group == element.group ? 0.0 : distance(corners);
+      if (value < limit_)
+      {
+        place.distances.push_back({ group, value });
+      }
+    }
+    return place;
+  }
+
+  double distance(std::int32_t point, std::int32_t group) const
+  {
+    for (const GroupDistance& near : distances_[static_cast<std::size_t>(point)])
+    {
+      if (near.group == group)
+      {
+        return near.distance;
+      }
+    }
+    return std::numeric_limits<double>::infinity();
+  }
+
+  template <std::size_t N>
+  void collect(const std::vector<GroupedElement<N>>& elements,
+    std::vector<std::vector<std::int32_t>>& lists) const
+  {
+    for (const GroupedElement<N>& element : elements)
+    {
+      for (const std::int32_t corner : element.corners)
+      {
+        for (const GroupDistance& near : distances_[static_cast<std::size_t>(corner)])
+        {
+          if (near.distance < limit_)
+          {
+            lists[static_cast<std::size_t>(element.group)].push_back(near.group);
+            lists[static_cast<std::size_t>(near.group)].push_back(element.group);
+          }
+        }
+      }
+    }
+  }
+
+  const GroupedElements& elements_;
+  double limit_;
+  std::vector<std::vector<GroupDistance>> distances_;
+};
+
+// [SUB] Figure 12: 0 at the corner or edge where the neighbour is attached, 1 opposite of it.
+class PaperPlaces
+{
+public:
+  explicit PaperPlaces(const GroupedElements& elements)
+    : elements_(elements), neighbours_(elements.groups.size())
+  {
+    std::vector<std::vector<std::int32_t>> atPoint;
+    for (std::size_t group = 0; group < elements.groups.size(); ++group)
+    {
+      for (const std::int32_t point : elements.groups[group])
+      {
+        if (point >= 0)
+        {
+          const auto index = static_cast<std::size_t>(point);
+          atPoint.resize(std::max(atPoint.size(), index + 1));
+          atPoint[index].push_back(static_cast<std::int32_t>(group));
+        }
+      }
+    }
+    for (const std::vector<std::int32_t>& groups : atPoint)
+    {
+      for (const std::int32_t group : groups)
+      {
+        std::vector<std::int32_t>& list = neighbours_[static_cast<std::size_t>(group)];
+        std::copy_if(groups.begin(), groups.end(), std::back_inserter(list),
+          [&](std::int32_t other) { return other != group; });
+      }
+    }
+    for (std::vector<std::int32_t>& list : neighbours_)
+    {
+      std::sort(list.begin(), list.end());
+      list.erase(std::unique(list.begin(), list.end()), list.end());
+    }
+  }
+
+  template <std::size_t N>
+  BlendPieces::Place at(const GroupedElement<N>& element, const Weighted<N>& where) const
+  {
+    const auto own = static_cast<std::size_t>(element.group);
+    BlendPieces::Place place{ element.group, {} };
+    for (const std::int32_t other : neighbours_[own])
+    {
+      double far = 1.0;
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        const std::int32_t corner = elements_.groups[own][k];
+        const auto& others = elements_.groups[static_cast<std::size_t>(other)];
+        if (corner >= 0 && std::find(others.begin(), others.end(), corner) != others.end())
+        {
+          for (std::size_t i = 0; i < N; ++i)
+          {
+            far -= where.weights[i] * element.weights[i][k];
+          }
+        }
+      }
+      place.distances.push_back({ other, std::clamp(far, 0.0, 1.0) });
+    }
+    return place;
+  }
+
+  const std::vector<std::vector<std::int32_t>>& neighbours() const { return neighbours_; }
+
+private:
+  const GroupedElements& elements_;
+  std::vector<std::vector<std::int32_t>> neighbours_;
+};
+
+template <class Places>
+void cut(const GroupedElements& elements, const GroupedElement<2>& segment, const Places& places,
+  BlendPieces& pieces)
+{
+  const std::array<Vec3, 2> ends = cornersOf(elements, segment);
+  const int parts = partsOf(
+    (ends[1] - ends[0]).norm(), std::min(segment.reaches[0], segment.reaches[1]), kMostParts);
+  const auto at = [&](double u) { return Weighted<2>{ { 1.0 - u, u } }; };
+  for (int k = 0; k < parts; ++k)
+  {
+    const Weighted<2> from = at(double(k) / parts);
+    const Weighted<2> to = at(double(k + 1) / parts);
+    pieces.segments.push_back(
+      makeSegmentElement(from(ends), to(ends), from(segment.reaches), to(segment.reaches)));
+    pieces.segmentPlaces.push_back(places.at(segment, at((k + 0.5) / parts)));
+  }
+}
+
+template <class Places>
+void cut(const GroupedElements& elements, const GroupedElement<3>& triangle, const Places& places,
+  BlendPieces& pieces)
+{
+  const std::array<Vec3, 3> corners = cornersOf(elements, triangle);
+  double longest = 0.0;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    longest = std::max(longest, (corners[(k + 1) % 3] - corners[k]).norm());
+  }
+  const int sides = partsOf(
+    longest, *std::min_element(triangle.reaches.begin(), triangle.reaches.end()), kMostSides);
+  const auto at = [&](double i, double j) {
+    return Weighted<3>{ { 1.0 - (i + j) / sides, i / sides, j / sides } };
+  };
+  const auto add = [&](int i, int j, int step)
+  {
+    const std::array<Weighted<3>, 3> where = { at(i, j), at(i + step, j), at(i, j + step) };
+    pieces.triangles.push_back(
+      makeTriangleElement({ where[0](corners), where[1](corners), where[2](corners) },
+        { where[0](triangle.reaches), where[1](triangle.reaches), where[2](triangle.reaches) }));
+    pieces.trianglePlaces.push_back(places.at(triangle, at(i + step / 3.0, j + step / 3.0)));
+  };
+  for (int j = 0; j < sides; ++j)
+  {
+    for (int i = 0; i + j < sides; ++i)
+    {
+      add(i, j, 1);
+      if (i + j + 1 < sides)
+      {
+        add(i + 1, j + 1, -1);
+      }
+    }
+  }
+}
+
+template <class Places>
+BlendPieces cutAll(const GroupedElements& elements, const Places& places)
+{
+  BlendPieces pieces;
+  for (const GroupedElement<2>& segment : elements.segments)
+  {
+    cut(elements, segment, places, pieces);
+  }
+  for (const GroupedElement<3>& triangle : elements.triangles)
+  {
+    cut(elements, triangle, places, pieces);
+  }
+  pieces.neighbours = places.neighbours();
+  return pieces;
+}
+
+} // namespace
+
+void validate(const BlendingControl& control)
+{
+  if (!(control.distance >= 0.5 && control.distance <= 100.0))
+  {
+    throw InvalidParameter("BlendDistance", control.distance,
+      "from 0.5 to 100: the distance along the skeleton, in influence radii, up to which parts "
+      "blend fully");
+  }
+}
+
+double BlendPieces::Place::distanceTo(std::int32_t other, double limit) const
+{
+  if (other == group)
+  {
+    return 0.0;
+  }
+  const auto found = std::lower_bound(distances.begin(), distances.end(), other,
+    [](const GroupDistance& near, std::int32_t value) { return near.group < value; });
+  return found != distances.end() && found->group == other ? found->distance : limit;
+}
+
+BlendPieces makeBlendPieces(const GroupedElements& elements, const BlendingControl& control)
+{
+  return control.kind == BlendingKind::Paper
+    ? cutAll(elements, PaperPlaces(elements))
+    : cutAll(elements, GraphPlaces(elements, BlendShare(control).end()));
+}
+
+} // namespace hybridtree

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "core/convolution/BlendingControl.h"
+#include "core/convolution/ConvolutionElement.h"
+#include "core/convolution/GraphDistances.h"
+
+namespace hybridtree
+{
+
+/// The elements again, cut into pieces of about half of R, each of which is at one distance from
+/// every other group: together with the kernels they tell where on the skeleton a point is.
+struct BlendPieces
+{
+  std::vector<SegmentElement> segments;
+  std::vector<TriangleElement> triangles;
+
+  /// Of one piece.
+  struct Place
+  {
+    std::int32_t group;
+    std::vector<GroupDistance> distances; ///< those below the limit, ascending by group
+
+    /// `limit` for groups that are not listed.
+    double distanceTo(std::int32_t other, double limit) const;
+  };
+  std::vector<Place> segmentPlaces;
+  std::vector<Place> trianglePlaces;
+
+  /// Per group, ascending, without itself: those it may blend with. Symmetric.
+  std::vector<std::vector<std::int32_t>> neighbours;
+};
+
+/// \pre control.kind is not BlendingKind::All.
+BlendPieces makeBlendPieces(const GroupedElements& elements, const BlendingControl& control);
+
+} // namespace hybridtree

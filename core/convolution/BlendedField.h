@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "core/convolution/BlendPieces.h"
+#include "core/convolution/ConvolutionField.h"
+#include "core/convolution/GroupedElements.h"
+
+#include <memory>
+#include <vector>
+
+namespace hybridtree
+{
+
+/// What the field in a box is made of: one sum, or the largest of several, each for a set of groups
+/// that blend there.
+struct BlendSelection
+{
+  /// A group whose share varies in the box.
+  struct Term
+  {
+    ElementSelection own;
+    std::vector<double> distances; ///< of the cluster's pieces from the group
+    double span;                   ///< between the largest and the least of them
+  };
+  struct Cluster
+  {
+    ElementSelection plain;  ///< elements that count in full
+    ElementSelection pieces; ///< that say where the point is; empty without terms
+    std::vector<Term> terms;
+  };
+
+  ElementSelection all;          ///< all elements that reach the box
+  std::vector<Cluster> clusters; ///< empty where everything adds up
+
+  bool empty() const { return all.empty(); }
+};
+
+/// The field of a skeleton under blending control: f = max over coarse elements i of G_i, G_i = sum
+/// over j of alpha(D_ij) f_j, f_j being the sum over the children of j ([SUB] 5).
+///
+/// [SUB] lets alpha fall with the parameter u on the element nearest to the point, which makes the
+/// extent of blends, and so the thickness, depend on the sizes of the coarse elements (its Figures
+/// 15 and 16), and jumps where the nearest element changes. Here D_ij is a distance along the
+/// skeleton in units of R: from the place of the point to element j, that place being spread over
+/// the skeleton by the kernel itself, D_ij = sum of f_c d(c, j) / sum of f_c over the pieces c of
+/// all elements near i. It is smooth, and as elements that are near each other average over the
+/// same pieces, G_i and G_j agree where the point passes from one to the other. Where the skeleton
+/// is straight or bends gently, all f_j > 0 have D_ij below the distance of full blending and f is
+/// exactly the sum, however the skeleton is divided.
+///
+/// Immutable: any number of threads may ask one object.
+class BlendedField
+{
+public:
+  /// \pre validate() of both.
+  BlendedField(const ConvolutionKernel& kernel, const BlendingControl& control,
+    const GroupedElements& elements);
+
+  const ConvolutionKernel& kernel() const { return whole_.kernel(); }
+  /// Of all elements, without blending control.
+  const ConvolutionField& sum() const { return whole_; }
+
+  Box3 influenceBounds() const { return whole_.influenceBounds(); }
+
+  /// What reaches the box. Overwrites `selection`.
+  void select(const Box3& box, BlendSelection& selection) const;
+
+  ///@{
+  /// \param selection of a box that holds the points; null when they may be anywhere.
+  void addField(const BlendSelection* selection, PointBatch points, double* sum) const;
+  void addFieldAndGradient(
+    const BlendSelection* selection, PointBatch points, double* sum, VectorBatch gradientSum) const;
+  ///@}
+
+  /// Bounds of the field in a box. \pre the selection is that of the box or of a larger one.
+  Interval range(const BlendSelection& selection, const Box3& box) const;
+
+private:
+  class Selector;
+
+  template <typename Body>
+  void forCompactParts(PointBatch points, Body&& body) const;
+
+  void clusterField(const BlendSelection::Cluster& cluster, PointBatch points, double* value) const;
+  void clusterField(const BlendSelection::Cluster& cluster, PointBatch points, double* value,
+    VectorBatch gradient) const;
+  // [SUB]'s sums are those of the largest element alone: with the others cut to its own field they
+  // are continuous and agree with [SUB] where it is the largest.
+  double counted(double field, double here) const
+  {
+    return control_.kind == BlendingKind::Paper && here < field ? here : field;
+  }
+  Interval clusterRange(const BlendSelection::Cluster& cluster, const Box3& box) const;
+
+  BlendingControl control_;
+  BlendShare share_;
+  ConvolutionField whole_;
+  double partSize_; ///< how far apart points may be that are asked for together
+  std::vector<std::int32_t> segmentGroups_;
+  std::vector<std::int32_t> triangleGroups_;
+
+  BlendPieces places_;                             ///< without its elements: those are in pieces_
+  std::unique_ptr<const ConvolutionField> pieces_; ///< null when everything blends
+};
+
+} // namespace hybridtree

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/convolution/GraphDistances.h"
+
+#include <limits>
+#include <queue>
+
+namespace hybridtree
+{
+namespace
+{
+
+struct Way
+{
+  std::size_t to;
+  double length;
+};
+
+using Ways = std::vector<std::vector<Way>>;
+
+Ways waysOf(const GroupedElements& elements)
+{
+  Ways ways(elements.points.size());
+  const auto add = [&](std::int32_t first, std::int32_t second)
+  {
+    const auto a = static_cast<std::size_t>(first);
+    const auto b = static_cast<std::size_t>(second);
+    const double length = 2.0 * (elements.points[a] - elements.points[b]).norm() /
+      (elements.reaches[a] + elements.reaches[b]);
+    ways[a].push_back({ b, length });
+    ways[b].push_back({ a, length });
+  };
+  for (const GroupedElement<2>& segment : elements.segments)
+  {
+    add(segment.corners[0], segment.corners[1]);
+  }
+  for (const GroupedElement<3>& triangle : elements.triangles)
+  {
+    add(triangle.corners[0], triangle.corners[1]);
+    add(triangle.corners[1], triangle.corners[2]);
+    add(triangle.corners[2], triangle.corners[0]);
+  }
+  return ways;
+}
+
+template <std::size_t N>
+void collectPoints(
+  const std::vector<GroupedElement<N>>& elements, std::vector<std::vector<std::size_t>>& points)
+{
+  for (const GroupedElement<N>& element : elements)
+  {
+    std::vector<std::size_t>& of = points[static_cast<std::size_t>(element.group)];
+    of.insert(of.end(), element.corners.begin(), element.corners.end());
+  }
+}
+
+// Dijkstra from all points of one group. Touched points are those whose distance is set.
+class Search
+{
+public:
+  explicit Search(const Ways& ways)
+    : ways_(ways), distance_(ways.size(), std::numeric_limits<double>::infinity())
+  {
+  }
+
+  template <typename Found>
+  void run(const std::vector<std::size_t>& sources, double limit, const Found& found)
+  {
+    for (const std::size_t source : sources)
+    {
+      this->reach(source, 0.0);
+    }
+    while (!queue_.empty())
+    {
+      const auto [distance, point] = queue_.top();
+      queue_.pop();
+      if (distance > distance_[point] || distance > limit)
+      {
+        continue;
+      }
+      for (const Way& way : ways_[point])
+      {
+        this->reach(way.to, distance + way.length);
+      }
+    }
+    for (const std::size_t point : touched_)
+    {
+      found(point, distance_[point]);
+      distance_[point] = std::numeric_limits<double>::infinity();
+    }
+    touched_.clear();
+  }
+
+private:
+  void reach(std::size_t point, double distance)
+  {
+    if (distance >= distance_[point])
+    {
+      return;
+    }
+    if (distance_[point] == std::numeric_limits<double>::infinity())
+    {
+      touched_.push_back(point);
+    }
+    distance_[point] = distance;
+    queue_.push({ distance, point });
+  }
+
+  using Entry = std::pair<double, std::size_t>;
+  const Ways& ways_;
+  std::vector<double> distance_;
+  std::vector<std::size_t> touched_;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
+};
+
+} // namespace
+
+std::vector<std::vector<GroupDistance>> groupDistances(
+  const GroupedElements& elements, double limit)
+{
+  const Ways ways = waysOf(elements);
+  std::vector<std::vector<std::size_t>> sources(elements.groups.size());
+  collectPoints(elements.segments, sources);
+  collectPoints(elements.triangles, sources);
+  std::vector<std::vector<GroupDistance>> distances(elements.points.size());
+  Search search(ways);
+  for (std::size_t group = 0; group < sources.size(); ++group)
+  {
+    search.run(sources[group], limit,
+      [&](std::size_t point, double distance) {
+        distances[point].push_back({ static_cast<std::int32_t>(group), distance });
+      });
+  }
+  return distances;
+}
+
+} // namespace hybridtree
