@@ -14,6 +14,7 @@ constexpr int kMaxRounds = 30;
 constexpr double kShortest = 0.1;    // edge that may be split, in radii
 constexpr double kReach = 0.4;       // of the middle of an edge to the surface, in edge lengths
 constexpr double kOpposite = -0.2;   // cosine between the normals at both ends of an edge that cuts
+constexpr double kNearby = 0.25;     // an axis that is still where it was, in radii
 constexpr double kClearly = 1.00001; // so that rounding does not choose between equal edges
 constexpr std::int32_t kSettled = -1;
 constexpr std::int32_t kToSplit = -2;
@@ -34,7 +35,7 @@ public:
     mesh_.triangles = cage.triangles;
   }
 
-  PieceMesh run(const PieceCage& cage, const std::vector<double>& before)
+  PieceMesh run(const PieceCage& cage, const std::vector<SkeletonAxis>& before)
   {
     placeCage(cage, before);
     for (int round = 0; round < kMaxRounds && splitEdges(); ++round)
@@ -60,7 +61,7 @@ private:
   {
     return mesh_.onSurface[edge[0]] != 0 && mesh_.onSurface[edge[1]] != 0;
   }
-  void placeCage(const PieceCage& cage, const std::vector<double>& before);
+  void placeCage(const PieceCage& cage, const std::vector<SkeletonAxis>& before);
   bool splitEdges();
   std::vector<Edge> newEdges();
   bool isOff(const Edge& edge, double value, double length) const;
@@ -85,15 +86,14 @@ void Refiner::addPoint(const Vec3& point, const Vec3& normal, bool onSurface)
   mesh_.onSurface.push_back(onSurface ? 1 : 0);
 }
 
-void Refiner::placeCage(const PieceCage& cage, const std::vector<double>& before)
+void Refiner::placeCage(const PieceCage& cage, const std::vector<SkeletonAxis>& before)
 {
   std::vector<SkeletonAxis> axes = cage.axes;
-  if (before.size() == axes.size())
+  for (std::size_t k = 0; k < axes.size() && before.size() == axes.size(); ++k)
   {
-    for (std::size_t k = 0; k < axes.size(); ++k)
-    {
-      axes[k].start = before[k] * cage.radii[k];
-    }
+    const bool isNear = (axes[k].base - before[k].base).norm() < kNearby * cage.radii[k] &&
+      axes[k].direction.dot(before[k].direction) > 1.0 - kNearby;
+    axes[k].start = isNear ? before[k].start : axes[k].start;
   }
   std::vector<Vec3> gradient;
   const std::vector<double> found = slideAxes(field_, axes, &gradient);
@@ -106,8 +106,9 @@ void Refiner::placeCage(const PieceCage& cage, const std::vector<double>& before
     addPoint(axes[k].base + t * axes[k].direction,
       steep ? Vec3(-gradient[k].normalized()) : axes[k].direction, isFound);
     mesh_.bases.push_back(axes[k].base);
-    mesh_.axisLengths.push_back(t / cage.radii[k]);
+    axes[k].start = t;
   }
+  mesh_.axes = std::move(axes);
 }
 
 std::vector<Edge> Refiner::newEdges()
@@ -310,7 +311,7 @@ void Refiner::divide(const Triangle& triangle, std::vector<Triangle>& result) co
 } // namespace
 
 PieceMesh refineCage(const PieceCage& cage, const FieldSource& field,
-  const PieceMeshOptions& options, const std::vector<double>& before)
+  const PieceMeshOptions& options, const std::vector<SkeletonAxis>& before)
 {
   return Refiner(cage, field, options).run(cage, before);
 }

@@ -26,7 +26,7 @@ struct PieceMesh
   std::vector<std::uint8_t> onSurface; ///< per point: 0 inside of other pieces, where no surface is
   std::vector<Vec3> bases;             ///< per point: the place of the skeleton it belongs to
   std::vector<Triangle> triangles;
-  std::vector<double> axisLengths; ///< where the vertices of the cage were found, in radii
+  std::vector<SkeletonAxis> axes; ///< of the cage; start is where the vertex was found
 };
 
 /// Lets the vertices of a cage slide to the surface, then splits edges until they follow it.
@@ -36,9 +36,9 @@ struct PieceMesh
 /// the surface along the gradient. Edges shorter than a tenth of the radius are not split, so that
 /// creases, where parts are united and not blended, end the splitting.
 ///
-/// \param before axisLengths of an earlier mesh of this piece, for a quick start; of no account
-/// when their number differs.
+/// \param before axes of an earlier mesh of this piece, for a quick start. Those that are elsewhere
+/// now, by more than a quarter of the radius, start anew; so do all when their number differs.
 PieceMesh refineCage(const PieceCage& cage, const FieldSource& field,
-  const PieceMeshOptions& options, const std::vector<double>& before = {});
+  const PieceMeshOptions& options, const std::vector<SkeletonAxis>& before = {});
 
 } // namespace hybridtree

@@ -140,6 +140,12 @@ private:
   std::vector<Box3> reach_; // segments, then triangles
 };
 
+std::size_t bytesOf(const PieceMesh& mesh)
+{
+  return mesh.points.size() * (3 * sizeof(Vec3) + 1) + mesh.triangles.size() * sizeof(Triangle) +
+    mesh.axes.size() * sizeof(SkeletonAxis) + sizeof(PieceMesh);
+}
+
 } // namespace
 
 PieceMeshPtr PieceMeshCache::find(std::uint64_t key)
@@ -164,24 +170,26 @@ void PieceMeshCache::insert(std::uint64_t key, const PieceMeshPtr& mesh)
   }
   entries_.emplace_front(key, mesh);
   places_[key] = entries_.begin();
-  if (entries_.size() > capacity_)
+  bytes_ += bytesOf(*mesh);
+  while (bytes_ > maxBytes_ && entries_.size() > 1)
   {
+    bytes_ -= bytesOf(*entries_.back().second);
     places_.erase(entries_.back().first);
     entries_.pop_back();
   }
 }
 
-std::vector<double> PieceMeshCache::lastAxes(std::size_t piece) const
+PieceMeshPtr PieceMeshCache::last(std::size_t piece) const
 {
   const std::lock_guard<std::mutex> lock(mutex_);
-  const auto found = axes_.find(piece);
-  return found == axes_.end() ? std::vector<double>() : found->second;
+  const auto found = last_.find(piece);
+  return found == last_.end() ? nullptr : found->second.lock();
 }
 
-void PieceMeshCache::setLastAxes(std::size_t piece, const std::vector<double>& lengths)
+void PieceMeshCache::setLast(std::size_t piece, const PieceMeshPtr& mesh)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
-  axes_[piece] = lengths;
+  last_[piece] = mesh;
 }
 
 std::size_t PieceMeshCache::hits() const
@@ -216,12 +224,13 @@ std::vector<PieceMeshPtr> pieceMeshes(const SkeletonField& skeleton,
           ? curveCage(pieces.curves[k], skeleton.refined, skeleton.level, skeleton.field)
           : surfaceCage(
               pieces.surfaces[k - curves], skeleton.refined, skeleton.level, skeleton.field);
+        const PieceMeshPtr before = cache ? cache->last(k) : nullptr;
         result[k] = std::make_shared<PieceMesh>(refineCage(
-          cage, skeleton.field, options, cache ? cache->lastAxes(k) : std::vector<double>()));
+          cage, skeleton.field, options, before ? before->axes : std::vector<SkeletonAxis>()));
         if (cache)
         {
           cache->insert(key, result[k]);
-          cache->setLastAxes(k, result[k]->axisLengths);
+          cache->setLast(k, result[k]);
         }
       }
     });

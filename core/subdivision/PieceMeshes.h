@@ -34,13 +34,13 @@ using PieceMeshPtr = std::shared_ptr<const PieceMesh>;
 class PieceMeshCache
 {
 public:
-  explicit PieceMeshCache(std::size_t capacity = 1024) : capacity_(capacity) {}
+  explicit PieceMeshCache(std::size_t maxBytes = std::size_t(256) << 20) : maxBytes_(maxBytes) {}
 
   PieceMeshPtr find(std::uint64_t key);
   void insert(std::uint64_t key, const PieceMeshPtr& mesh);
-  /// Axis lengths of the mesh that a piece of this number had last.
-  std::vector<double> lastAxes(std::size_t piece) const;
-  void setLastAxes(std::size_t piece, const std::vector<double>& lengths);
+  /// The mesh that a piece of this number had last; null where there is none.
+  PieceMeshPtr last(std::size_t piece) const;
+  void setLast(std::size_t piece, const PieceMeshPtr& mesh);
   /// Answers of find() that were not null, since the beginning.
   std::size_t hits() const;
 
@@ -48,10 +48,11 @@ private:
   using Entry = std::pair<std::uint64_t, PieceMeshPtr>;
 
   mutable std::mutex mutex_;
-  std::size_t capacity_;
+  std::size_t maxBytes_;
+  std::size_t bytes_ = 0;
   std::list<Entry> entries_; // last used first
   std::unordered_map<std::uint64_t, std::list<Entry>::iterator> places_;
-  std::unordered_map<std::size_t, std::vector<double>> axes_;
+  std::unordered_map<std::size_t, std::weak_ptr<const PieceMesh>> last_;
   std::size_t hits_ = 0;
 };
 

@@ -277,8 +277,9 @@ TEST(PieceMeshCache, AfterAnEditOnlyPiecesInReachAreMadeAndTheResultIsThatOfACol
 
 TEST(PieceMeshCache, ForgetsWhatWasUsedLongAgo)
 {
-  PieceMeshCache cache(2);
-  const auto mesh = std::make_shared<PieceMesh>();
+  auto mesh = std::make_shared<PieceMesh>();
+  mesh->points.resize(1000);
+  PieceMeshCache cache(std::size_t(200) << 10); // bytes: two, but not three of them
   cache.insert(1, mesh);
   cache.insert(2, mesh);
   EXPECT_EQ(cache.find(1), mesh);
