@@ -4,9 +4,9 @@
 #include "core/base/Error.h"
 #include "core/geometry/IntervalMath.h"
 #include "core/nodes/EnumNames.h"
-#include "core/nodes/LatticeMesh.h"
 #include "core/nodes/LocalPoints.h"
 #include "core/nodes/Membership.h"
+#include "core/nodes/SubdivisionSkeletonMesh.h"
 #include "core/polygonize/LevelBounds.h"
 
 #include <algorithm>
@@ -105,6 +105,10 @@ SubdivisionSkeleton::ShapePtr makeShape(
   kSchemes.check(options.scheme);
   kKernels.check(options.kernel.kind);
   kRadii.check(options.radius);
+  if (!(options.refinement > 0.0 && options.refinement <= 1.0))
+  {
+    throw InvalidParameter("Refinement", options.refinement, "above 0 and at most 1");
+  }
   RefinedSkeleton refined = subdivide(graph, options.scheme, options.level);
   BlendedField field(options.kernel, options.blending, groupedElements(graph, refined, options));
   return std::make_shared<SubdivisionSkeleton::Shape>(
@@ -414,6 +418,7 @@ Parameters SubdivisionSkeleton::parameters() const
   kRadii.describe(options.radius, parameters);
   kBlendings.describe(options.blending.kind, parameters);
   parameters.set("blendDistance", options.blending.distance);
+  parameters.set("refinement", options.refinement);
   parameters.set("negative", options.negative);
   if (placement_)
   {
@@ -424,7 +429,10 @@ Parameters SubdivisionSkeleton::parameters() const
 
 TriangleMesh SubdivisionSkeleton::makeMesh(double edgeLength, const Progress& progress) const
 {
-  return latticeMesh(*this, edgeLength, progress);
+  std::string warning;
+  TriangleMesh mesh = subdivisionSkeletonMesh(*this, edgeLength, warning, progress);
+  warnings_.add(warning);
+  return mesh;
 }
 
 NodePtr SubdivisionSkeleton::makeAffine(const Affine3& map) const
@@ -483,6 +491,7 @@ NodePtr subdivisionSkeletonFromParameters(
   options.radius = kRadii.from(parameters);
   options.blending.kind = kBlendings.from(parameters);
   options.blending.distance = parameters.getDouble("blendDistance");
+  options.refinement = parameters.getDouble("refinement");
   options.negative = parameters.getBool("negative");
   const Affine3 map =
     parameters.has("map") ? parameters.getAffine("map") : Affine3(Affine3::Identity());

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/convolution/BlendedField.h"
+#include "core/nodes/BlendMesh.h"
 #include "core/nodes/Node.h"
 #include "core/nodes/NodeMaker.h"
 #include "core/subdivision/Subdivide.h"
@@ -27,6 +28,8 @@ struct SubdivisionSkeletonOptions
   ConvolutionKernel kernel;
   BlendingControl blending;
   SkeletonRadius radius = SkeletonRadius::Linear;
+  /// eta of [SUB] 4.2, (0, 1]: edges of the mesh are split where |f(middle) - T| > eta * T.
+  double refinement = 0.1;
   bool negative = false; ///< carves where something blends with it; no surface of its own
 };
 
@@ -89,6 +92,7 @@ public:
   Box3 surfaceBounds() const override;
   bool isNegative() const override { return this->options().negative; }
   std::optional<SurfaceField> surfaceField() const override;
+  std::vector<std::string> warnings() const override { return warnings_.all(); }
 
   const char* kind() const override { return "subdivisionSkeleton"; }
   /// "points" (coordinates in a row), "radii", "segments" and "triangles" (indices in a row) of the
@@ -113,6 +117,7 @@ private:
 
   ShapePtr shape_;
   std::unique_ptr<const Placement> placement_; // null for the identity
+  MeshWarnings warnings_;
   mutable std::once_flag surfaceBoundsOnce_;
   mutable Box3 surfaceBounds_;
 };

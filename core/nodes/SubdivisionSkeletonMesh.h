@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "core/nodes/SubdivisionSkeleton.h"
+
+namespace hybridtree
+{
+
+/// The surface around a skeleton as one closed 2-manifold: the meshes of its pieces where each is
+/// alone, the lattice where they meet (SkeletonMesh.h), all of the lattice where they do not fit
+/// together, for images under non-similarities, and for a negative leaf nothing.
+///
+/// Pieces are remembered in the process: after an edit those out of its reach are there already.
+/// \param warning what the user should know; untouched if all went well.
+TriangleMesh subdivisionSkeletonMesh(const SubdivisionSkeleton& leaf, double edgeLength,
+  std::string& warning, const Progress& progress = Progress::none());
+
+/// For a quick look while a skeleton is edited ([SUB] 4): the closed meshes of the pieces, which
+/// overlap where they meet, refined by the leaf's own option alone. sourceLeaf is the number of the
+/// piece: curves first, then surfaces, each by its first segment or triangle in the coarse graph.
+TriangleMesh subdivisionSkeletonPreview(
+  const SubdivisionSkeleton& leaf, const Progress& progress = Progress::none());
+
+} // namespace hybridtree
