@@ -326,8 +326,13 @@ void Delaunay::fill(std::int32_t point, Cavity& cavity)
   }
   while (cavity.cells.size() < bases_.size() && !unused_.empty())
   {
-    cavity.cells.push_back(unused_.back());
+    const std::int32_t cell = unused_.back();
     unused_.pop_back();
+    if (!this->used(cell)) // it may be listed twice, and used since
+    {
+      cells_[cell].vertices[0] = point;
+      cavity.cells.push_back(cell);
+    }
   }
   if (const std::size_t missing = bases_.size() - cavity.cells.size(); missing > 0)
   {
@@ -346,6 +351,36 @@ void Delaunay::fill(std::int32_t point, Cavity& cavity)
   }
   this->makeCells(point, cavity);
   cellOf_[point] = cavity.cells[0];
+}
+
+void Delaunay::takeBack(const Replaced* begin, const Replaced* end)
+{
+  const auto vertex = static_cast<std::int32_t>(points_.size()) - 1;
+  this->star(vertex, cavity_.cells);
+  for (const std::int32_t cell : cavity_.cells)
+  {
+    cells_[cell].vertices[0] = kUnused;
+    unused_.push_back(cell);
+  }
+  for (const Replaced* old = begin; old != end; ++old)
+  {
+    cells_[old->number] = old->cell;
+  }
+  for (const Replaced* old = begin; old != end; ++old)
+  {
+    for (std::int32_t facet = 0; facet < 4; ++facet)
+    {
+      const std::int32_t beyond = old->cell.beyond[facet];
+      cells_[beyond >> 2].beyond[beyond & 3] = 4 * old->number + facet;
+      if (old->cell.vertices[facet] >= 0)
+      {
+        cellOf_[old->cell.vertices[facet]] = old->number;
+      }
+    }
+  }
+  points_.pop_back();
+  cellOf_.pop_back();
+  local_.pop_back();
 }
 
 std::int32_t Delaunay::localOf(std::int32_t vertex)

@@ -85,6 +85,15 @@ public:
   /// of cavity.border as its facet 0.
   std::int32_t fill(const Vec3& point, Cavity& cavity);
 
+  /// A cell of a cavity, as it was before it was filled.
+  struct Replaced
+  {
+    std::int32_t number;
+    Cell cell;
+  };
+  /// Undoes the last insertion. \pre it was made by fill(), and replaced these cells.
+  void takeBack(const Replaced* begin, const Replaced* end);
+
 private:
   static constexpr std::int32_t kUnused = -2;
   struct Base

@@ -6,6 +6,7 @@
 #include "core/geometry/PointTriangle.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -32,7 +33,7 @@ bool sameEnds(const Edge& a, const Edge& b)
 struct DynamicSurface::Hole
 {
   std::vector<Edge> edges; // of the border's facets whose cell is inside, each turned outward
-  std::vector<Triangle> triangles; // of the surface within it
+  std::vector<std::int32_t> triangles; // of the surface within it
 };
 
 void DynamicSurface::insert(const std::vector<Vec3>& points, const Progress& progress)
@@ -50,6 +51,11 @@ void DynamicSurface::setInside(
 {
   inside_.assign(delaunay_.cellCount(), 0);
   marks_.assign(delaunay_.cellCount(), 0);
+  steps_.clear();
+  replaced_.clear();
+  replacedInside_.clear();
+  removed_.clear();
+  renamed_.clear();
   for (std::int32_t cell = 0; cell < tetrahedra.cellCount(); ++cell)
   {
     inside_[tetrahedra.source(cell)] = inside[cell];
@@ -74,9 +80,9 @@ DynamicSurface::Outcome DynamicSurface::place(
     {
       return Outcome::Refused;
     }
-    hole.triangles.push_back(delaunay_.facet(dent));
+    hole.triangles.push_back(this->triangleOf(dent));
   }
-  for (const Triangle& triangle : hole.triangles)
+  for (const std::int32_t triangle : hole.triangles)
   {
     if (this->isNear(triangle, point, tolerance))
     {
@@ -85,14 +91,17 @@ DynamicSurface::Outcome DynamicSurface::place(
   }
   if (dent < 0 && !this->keepsManifold(hole))
   {
-    return Outcome::Refused;
+    return this->prepare(point, tolerance) ? Outcome::Prepared : Outcome::Refused;
   }
-  for (const Triangle& triangle : hole.triangles)
-  {
-    touched_.insert(touched_.end(), triangle.begin(), triangle.end());
-  }
+  change_.removed = hole.triangles;
   this->fill(point, dent);
   return Outcome::Placed;
+}
+
+// The number of the triangle that is this half-facet or its opposite.
+std::int32_t DynamicSurface::triangleOf(std::int32_t halfFacet) const
+{
+  return inside_[halfFacet >> 2] != 0 ? halfFacet : delaunay_.beyond(halfFacet);
 }
 
 DynamicSurface::Hole DynamicSurface::holeOf(const std::vector<std::int32_t>& cells)
@@ -117,7 +126,7 @@ DynamicSurface::Hole DynamicSurface::holeOf(const std::vector<std::int32_t>& cel
       }
       else if (inside_[beyond] == 0)
       {
-        hole.triangles.push_back(corner);
+        hole.triangles.push_back(facet);
       }
     }
   }
@@ -131,31 +140,196 @@ DynamicSurface::Hole DynamicSurface::holeOf(const std::vector<std::int32_t>& cel
 // The new tetrahedra are inside where the old ones at their bases were, but for that at the dent.
 void DynamicSurface::fill(const Vec3& point, std::int32_t dent)
 {
+  change_.added.clear();
+  change_.renamed.clear();
   std::vector<std::uint8_t> inside(cavity_.border.size());
   for (std::size_t k = 0; k < inside.size(); ++k)
   {
     const std::int32_t facet = cavity_.border[k];
     inside[k] = inside_[facet >> 2] ^ std::uint8_t(facet == dent);
+    if (facet != dent && inside[k] != 0 && inside_[delaunay_.beyond(facet) >> 2] == 0)
+    {
+      change_.renamed.emplace_back(facet, static_cast<std::int32_t>(k));
+    }
   }
+  this->remember(-1);
   for (const std::int32_t cell : cavity_.cells)
   {
+    replaced_.push_back({ cell, delaunay_.cell(cell) });
+    replacedInside_.push_back(inside_[cell]);
     inside_[cell] = 0;
   }
-  touched_.push_back(delaunay_.fill(point, cavity_));
+  delaunay_.fill(point, cavity_);
   inside_.resize(delaunay_.cellCount(), 0);
   marks_.resize(delaunay_.cellCount(), 0);
   for (std::size_t k = 0; k < inside.size(); ++k)
   {
     inside_[cavity_.cells[k]] = inside[k];
   }
+  for (auto& name : change_.renamed)
+  {
+    name.second = cavity_.border[name.second];
+  }
+  renamed_.insert(renamed_.end(), change_.renamed.begin(), change_.renamed.end());
+  for (const std::int32_t cell : cavity_.cells)
+  {
+    for (std::int32_t facet = 4 * cell + 1; inside_[cell] != 0 && facet < 4 * cell + 4; ++facet)
+    {
+      if (inside_[delaunay_.beyond(facet) >> 2] == 0)
+      {
+        change_.added.push_back(facet);
+      }
+    }
+  }
 }
 
-bool DynamicSurface::isNear(const Triangle& triangle, const Vec3& point, double tolerance)
+void DynamicSurface::remember(std::int32_t flipped)
 {
+  steps_.push_back({ flipped, replaced_.size(), removed_.size(), renamed_.size() });
+  removed_.insert(removed_.end(), change_.removed.begin(), change_.removed.end());
+}
+
+bool DynamicSurface::undo()
+{
+  const Step step = steps_.back();
+  steps_.pop_back();
+  if (step.flipped >= 0)
+  {
+    this->flip(step.flipped);
+  }
+  else
+  {
+    this->takeBack(step);
+  }
+  replaced_.resize(step.replaced);
+  replacedInside_.resize(step.replaced);
+  removed_.resize(step.removed);
+  renamed_.resize(step.renamed);
+  return step.flipped < 0;
+}
+
+// The cells around the last site have it as their vertex 0.
+void DynamicSurface::takeBack(const Step& step)
+{
+  change_.removed.clear();
+  change_.renamed.clear();
+  delaunay_.star(static_cast<std::int32_t>(this->sites().size()) - 1, cavity_.cells);
+  for (const std::int32_t cell : cavity_.cells)
+  {
+    for (std::int32_t facet = 4 * cell + 1; inside_[cell] != 0 && facet < 4 * cell + 4; ++facet)
+    {
+      if (inside_[delaunay_.beyond(facet) >> 2] == 0)
+      {
+        change_.removed.push_back(facet);
+      }
+    }
+  }
+  for (const std::int32_t cell : cavity_.cells)
+  {
+    inside_[cell] = 0;
+  }
+  delaunay_.takeBack(replaced_.data() + step.replaced, replaced_.data() + replaced_.size());
+  for (std::size_t k = step.replaced; k < replaced_.size(); ++k)
+  {
+    inside_[replaced_[k].number] = replacedInside_[k];
+  }
+  change_.added.assign(removed_.begin() + std::ptrdiff_t(step.removed), removed_.end());
+  for (std::size_t k = step.renamed; k < renamed_.size(); ++k)
+  {
+    change_.renamed.emplace_back(renamed_[k].second, renamed_[k].first);
+  }
+}
+
+// Moves one tetrahedron that the last point would replace to the other side of the surface, if then
+// the point can be placed.
+bool DynamicSurface::prepare(const Vec3& point, double tolerance)
+{
+  for (const std::int32_t cell : cavity_.cells)
+  {
+    if (!this->mayFlip(cell))
+    {
+      continue;
+    }
+    inside_[cell] ^= 1;
+    const Hole hole = this->holeOf(cavity_.cells);
+    inside_[cell] ^= 1;
+    // What is prepared is placed, else two points could push the surface to and fro for ever.
+    const bool near = std::any_of(hole.triangles.begin(), hole.triangles.end(),
+      [&](std::int32_t triangle) { return this->isNear(triangle, point, tolerance); });
+    if (!hole.triangles.empty() && !near && this->keepsManifold(hole))
+    {
+      this->flip(cell);
+      this->remember(cell);
+      return true;
+    }
+  }
+  return false;
+}
+
+// Whether the surface stays a manifold of the same genus. The same moves as the flow's (Front.cpp).
+bool DynamicSurface::mayFlip(std::int32_t cell)
+{
+  if (!delaunay_.finite(cell))
+  {
+    return false;
+  }
+  std::array<int, 4> open{};
+  int openCount = 0;
+  for (std::int32_t facet = 0; facet < 4; ++facet)
+  {
+    if (inside_[delaunay_.beyond(4 * cell + facet) >> 2] != inside_[cell])
+    {
+      open[openCount++] = facet;
+    }
+  }
+  const auto& v = delaunay_.cell(cell).vertices;
+  return openCount == 3 || (openCount == 1 && !this->onSurface(v[open[0]], v[open[0]])) ||
+    (openCount == 2 && !this->onSurface(v[open[0]], v[open[1]]));
+}
+
+// Whether a vertex, or an edge between two, is part of the surface.
+bool DynamicSurface::onSurface(std::int32_t site, std::int32_t other)
+{
+  delaunay_.star(site, star_);
+  std::array<bool, 2> seen{};
+  for (const std::int32_t cell : star_)
+  {
+    const auto& v = delaunay_.cell(cell).vertices;
+    if (std::find(v.begin(), v.end(), other) != v.end())
+    {
+      seen[inside_[cell] != 0 ? 1 : 0] = true;
+    }
+  }
+  return seen[0] && seen[1];
+}
+
+// Moves a tetrahedron to the other side of the surface.
+void DynamicSurface::flip(std::int32_t cell)
+{
+  const auto facets = [&](std::vector<std::int32_t>& triangles)
+  {
+    triangles.clear();
+    for (std::int32_t facet = 4 * cell; facet < 4 * cell + 4; ++facet)
+    {
+      if (inside_[cell] != inside_[delaunay_.beyond(facet) >> 2])
+      {
+        triangles.push_back(this->triangleOf(facet));
+      }
+    }
+  };
+  facets(change_.removed);
+  inside_[cell] ^= 1;
+  facets(change_.added);
+  change_.renamed.clear();
+}
+
+bool DynamicSurface::isNear(std::int32_t triangle, const Vec3& point, double tolerance)
+{
+  const Triangle t = this->triangle(triangle);
+  const std::vector<Vec3>& sites = this->sites();
   nearTriangle_ = triangle;
-  nearDistance_ = std::sqrt(nearestOnTriangle(
-    point, this->sites()[triangle[0]], this->sites()[triangle[1]], this->sites()[triangle[2]])
-                              .squaredDistance);
+  nearDistance_ =
+    std::sqrt(nearestOnTriangle(point, sites[t[0]], sites[t[1]], sites[t[2]]).squaredDistance);
   return nearDistance_ <= tolerance;
 }
 
@@ -182,29 +356,23 @@ DynamicSurface::Outcome DynamicSurface::surfaceAt(std::int32_t site, double tole
   {
     return Outcome::Refused;
   }
-  const Triangle t = delaunay_.facet(facet);
-  if (this->isNear(t, point, tolerance))
+  if (this->isNear(this->triangleOf(facet), point, tolerance))
   {
     return Outcome::Near;
   }
-  inside_[facet >> 2] ^= 1;
-  touched_.insert(touched_.end(), { site, t[0], t[1], t[2] });
+  this->flip(facet >> 2);
+  this->remember(facet >> 2);
   return Outcome::Surfaced;
 }
 
-std::vector<std::int32_t> DynamicSurface::takeTouched()
+std::vector<std::int32_t> DynamicSurface::surface() const
 {
-  return std::exchange(touched_, {});
-}
-
-std::vector<Triangle> DynamicSurface::surface() const
-{
-  std::vector<Triangle> triangles;
+  std::vector<std::int32_t> triangles;
   for (std::int32_t facet = 0; facet < 4 * delaunay_.cellCount(); ++facet)
   {
     if (inside_[facet >> 2] != 0 && inside_[delaunay_.beyond(facet) >> 2] == 0)
     {
-      triangles.push_back(delaunay_.facet(facet));
+      triangles.push_back(facet);
     }
   }
   return triangles;
@@ -283,9 +451,10 @@ bool DynamicSurface::keepsManifold(const Hole& hole) const
   }
   // Euler's formula for a disc whose border is the loop.
   std::vector<std::int32_t> sites;
-  for (const Triangle& triangle : hole.triangles)
+  for (const std::int32_t triangle : hole.triangles)
   {
-    sites.insert(sites.end(), triangle.begin(), triangle.end());
+    const Triangle t = this->triangle(triangle);
+    sites.insert(sites.end(), t.begin(), t.end());
   }
   std::sort(sites.begin(), sites.end());
   sites.erase(std::unique(sites.begin(), sites.end()), sites.end());

@@ -6,7 +6,9 @@
 #include "core/base/Progress.h"
 #include "core/mesh/TriangleMesh.h"
 
+#include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace hybridtree
@@ -21,7 +23,8 @@ namespace hybridtree
 /// bordered by one simple loop; then the surface stays a closed 2-manifold of the same genus. Where
 /// no part of the surface is within, a facet at the border that is not oriented Gabriel for the
 /// point is replaced by three, as in the flow of convection (and its opposite, outward).
-/// Not for several threads at once.
+/// About 1 KB is kept for each step, so that it can be taken back. May be copied. Not for several
+/// threads at once.
 class DynamicSurface
 {
 public:
@@ -48,38 +51,76 @@ public:
     Near,     ///< Nothing was done: the surface is near enough to the point.
     Refused,  ///< Nothing was done: the surface is elsewhere, or would not stay a manifold.
     Surfaced, ///< It was a site; now it is a vertex of the surface.
+    Prepared, ///< The surface has moved, so that it would take up the point now.
     Coincides ///< Nothing was done: it is a vertex of the surface.
   };
   /// \param near a site not far from the point: where its search starts.
   /// \param tolerance the point is left out if a triangle that it would replace is this near.
   Outcome place(const Vec3& point, std::int32_t near, double tolerance);
   /// For Outcome::Near of the last place(): the triangle, and its distance.
-  const Triangle& nearTriangle() const { return nearTriangle_; }
+  std::int32_t nearTriangle() const { return nearTriangle_; }
   double nearDistance() const { return nearDistance_; }
 
-  /// Corners of the triangles that place() has removed or made since the last call, in any order,
-  /// some more than once.
-  std::vector<std::int32_t> takeTouched();
+  /// Steps are what place() did, from the last setInside on; the last can be taken back.
+  std::size_t stepCount() const { return steps_.size(); }
+  /// \returns whether that was a point placed, so that the last site is gone. \pre a step is left.
+  bool undo();
 
-  /// Triangles of the surface, indices into sites(), outward.
-  std::vector<Triangle> surface() const;
+  /// What the last step, or the last one undone, has done to the triangles. A triangle is the
+  /// number of a half-facet, which changes where the tetrahedron behind it does.
+  struct Change
+  {
+    std::vector<std::int32_t> removed;
+    std::vector<std::int32_t> added;
+    std::vector<std::pair<std::int32_t, std::int32_t>> renamed; // from, to
+  };
+  const Change& lastChange() const { return change_; }
+
+  /// Triangles of the surface.
+  std::vector<std::int32_t> surface() const;
+  /// Sites of its corners, outward.
+  Triangle triangle(std::int32_t number) const { return delaunay_.facet(number); }
+  /// Above the numbers of all triangles.
+  std::int32_t endOfNumbers() const { return 4 * delaunay_.cellCount(); }
 
 private:
   struct Hole;
+  struct Step
+  {
+    std::int32_t flipped; // cell; -1: a point was placed
+    std::size_t replaced; // where its part of the lists below begins
+    std::size_t removed;
+    std::size_t renamed;
+  };
+
   Hole holeOf(const std::vector<std::int32_t>& cells);
   std::int32_t facetTowards(const Vec3& point, const std::vector<std::int32_t>& border) const;
-  bool isNear(const Triangle& triangle, const Vec3& point, double tolerance);
+  bool isNear(std::int32_t triangle, const Vec3& point, double tolerance);
+  void remember(std::int32_t flipped);
   void fill(const Vec3& point, std::int32_t dent);
   Outcome surfaceAt(std::int32_t site, double tolerance);
+  bool prepare(const Vec3& point, double tolerance);
+  bool mayFlip(std::int32_t cell);
+  bool onSurface(std::int32_t site, std::int32_t other);
+  void flip(std::int32_t cell);
+  void takeBack(const Step& step);
+  std::int32_t triangleOf(std::int32_t halfFacet) const;
   bool keepsManifold(const Hole& hole) const;
 
   Delaunay delaunay_;
   std::vector<std::uint8_t> inside_; // per cell
   Delaunay::Cavity cavity_;          // scratch
+  std::vector<std::int32_t> star_;   // scratch
   std::vector<std::uint8_t> marks_;  // per cell; all 0 between uses
-  Triangle nearTriangle_{ -1, -1, -1 };
+  std::int32_t nearTriangle_ = -1;
   double nearDistance_ = 0.0;
-  std::vector<std::int32_t> touched_;
+  Change change_;
+  std::vector<Step> steps_;
+  // Of all steps, one after the other.
+  std::vector<Delaunay::Replaced> replaced_;
+  std::vector<std::uint8_t> replacedInside_;
+  std::vector<std::int32_t> removed_;
+  std::vector<std::pair<std::int32_t, std::int32_t>> renamed_;
 };
 
 } // namespace hybridtree

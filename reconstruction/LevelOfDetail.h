@@ -3,34 +3,32 @@
 
 #include "reconstruction/Convection.h"
 
+#include "core/base/Types.h"
+
 #include <cstddef>
 #include <vector>
 
 namespace hybridtree
 {
 
-/// How much of a point set a surface shall keep: one of the two.
+/// How much of a point set a surface shall keep: one of tolerance and vertices.
 struct LevelOfDetail
 {
   /// Greatest distance of any input point to the surface, world units, > 0; 0: not asked for.
   double tolerance = 0.0;
   /// Vertices of the surface, >= 4; 0: not asked for. Met within 2 in 100, unless the input has
-  /// not so many points that the surface can use.
+  /// not so many points that the surface can use, or they are too few to tell inside from outside.
   std::size_t vertices = 0;
+  /// Box with a tolerance of its own; empty: none. Its vertices come on top of those above.
+  Box3 region = {};
+  /// Greatest distance of the points in the box to the surface, world units, >= 0; 0: all points
+  /// are used.
+  double regionTolerance = 0.0;
 };
 
-/// A surface of part of the points: dense where it bends, sparse where it is flat ([HT] 3; Allegre,
-/// Chaine, Akkouche, Convection-driven dynamic surface reconstruction, SMI 2005).
+/// A surface of part of the points: dense where it bends, sparse where it is flat. For one level of
+/// detail; DynamicReconstruction.h has how it works, and keeps what is made for others.
 ///
-/// A subset of the points, chosen by roughness (PointOctree.h), is reconstructed by static
-/// convection. Then the input points that lie farthest from the surface are added, some per round
-/// and spread over the surface; tetrahedralization and surface follow locally (DynamicSurface.h).
-/// Only points that are used are ever triangulated. A point that the surface cannot take up without
-/// changing its topology is added to the tetrahedralization, and convection starts from the hull
-/// again.
-///
-/// Departs from the paper: there points are taken out where the flow finds too many; here they are
-/// put in where there are too few.
 /// Points that stay beyond the tolerance whatever is done (inside a solid, or far outliers) are
 /// counted in a warning. Sheets thinner than the tolerance may be lost.
 /// \param points in any order, as many as fit: an unused one takes about 150 bytes.

@@ -218,7 +218,7 @@ void PointOctree::splitToTolerance(double roughness)
   this->splitRougher(roughness);
 }
 
-void PointOctree::splitInto(std::size_t cells)
+double PointOctree::splitInto(std::size_t cells)
 {
   std::vector<double> steps;
   for (const Cell& cell : cells_)
@@ -233,6 +233,7 @@ void PointOctree::splitInto(std::size_t cells)
   // More leaves the lower the roughness: bisection.
   std::size_t fine = 0;
   std::size_t coarse = steps.size() - 1;
+  double chosen = 0.0;
   for (bool near = false; !near;)
   {
     const std::size_t middle = (fine + coarse) / 2;
@@ -241,7 +242,9 @@ void PointOctree::splitInto(std::size_t cells)
     const std::size_t leaves = this->leafCount();
     (leaves > cells ? fine : coarse) = middle;
     near = coarse - fine <= 1 || (leaves <= cells && 50 * leaves > 49 * cells);
+    chosen = steps[middle];
   }
+  return chosen;
 }
 
 // From the finest cells on: where one is split, so are the cells around its parent.

@@ -28,7 +28,8 @@ public:
   /// what balance asks for.
   void splitToTolerance(double roughness);
   /// The same with the roughness for which no more than about `cells` leaves come out.
-  void splitInto(std::size_t cells);
+  /// \returns that roughness.
+  double splitInto(std::size_t cells);
 
   /// Index of the point nearest to the centroid of each leaf's points, in spatial order. Leaves
   /// that the surface but grazes (their share of the parent's points is small) give none: their

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "reconstruction/LevelOfDetail.h"
+#include "reconstruction/DynamicReconstruction.h"
 #include "reconstruction/PointOctree.h"
 
 #include "core/base/Error.h"
@@ -13,8 +14,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <numeric>
 #include <set>
+#include <stdexcept>
 
 namespace
 {
@@ -238,6 +242,133 @@ TEST(LevelOfDetail, CanBeCancelledEverywhere)
     }
   }
   EXPECT_GT(checks, 5);
+}
+
+double meanDistance(const std::vector<Vec3>& points, const TriangleMesh& mesh)
+{
+  const std::vector<double> all = distances(points, mesh);
+  return std::accumulate(all.begin(), all.end(), 0.0) / double(all.size());
+}
+
+std::set<std::int32_t> idsOf(const ReconstructedSurface& surface)
+{
+  return { surface.pointIds.begin(), surface.pointIds.end() };
+}
+
+TEST(DynamicReconstruction, GoesToAnyLevelAsWellAsAFreshRun)
+{
+  const std::vector<Vec3> points = randomTorus(1.0, 0.4, 20000, 11);
+  DynamicReconstruction dynamic(points);
+  for (const std::size_t wanted : { 3000u, 4500u, 3000u, 6500u, 2800u, 900u })
+  {
+    SCOPED_TRACE("vertices " + std::to_string(wanted));
+    const ReconstructedSurface surface = dynamic.update(LevelOfDetail{ 0.0, wanted });
+    expectSound(surface, points, 1);
+    EXPECT_EQ(surface.mesh.points.size(), wanted);
+    const ReconstructedSurface fresh = reconstruct(points, LevelOfDetail{ 0.0, wanted });
+    EXPECT_LE(meanDistance(points, surface.mesh), 1.15 * meanDistance(points, fresh.mesh));
+    EXPECT_LE(farthest(points, surface.mesh), 2.0 * farthest(points, fresh.mesh));
+  }
+  for (const double tolerance : { 0.01, 0.006, 0.01, 0.003, 0.02 })
+  {
+    SCOPED_TRACE("tolerance " + std::to_string(tolerance));
+    const ReconstructedSurface surface = dynamic.update(LevelOfDetail{ tolerance, 0 });
+    expectSound(surface, points, 1);
+    EXPECT_LE(farthest(points, surface.mesh), tolerance * (1.0 + 1e-12));
+    const ReconstructedSurface fresh = reconstruct(points, LevelOfDetail{ tolerance, 0 });
+    EXPECT_LE(double(surface.mesh.points.size()), 1.3 * double(fresh.mesh.points.size()));
+  }
+}
+
+TEST(DynamicReconstruction, ComesBackToWhereItWas)
+{
+  const std::vector<Vec3> points = randomTorus(1.0, 0.4, 20000, 12);
+  DynamicReconstruction dynamic(points);
+  const auto before = idsOf(dynamic.update(LevelOfDetail{ 0.0, 3000 }));
+  const auto more = idsOf(dynamic.update(LevelOfDetail{ 0.0, 5000 }));
+  EXPECT_GT(more.size(), before.size());
+  EXPECT_EQ(idsOf(dynamic.update(LevelOfDetail{ 0.0, 3000 })), before);
+}
+
+TEST(DynamicReconstruction, RefinesInARegionOnly)
+{
+  const std::vector<Vec3> points = randomTorus(1.0, 0.4, 20000, 13);
+  DynamicReconstruction dynamic(points);
+  const LevelOfDetail coarse{ 0.02, 0 };
+  const ReconstructedSurface without = dynamic.update(coarse);
+  for (const double side : { 1.0, -1.0 })
+  {
+    LevelOfDetail detail = coarse;
+    detail.region = Box3(Vec3(side - 0.6, -0.6, -0.6), Vec3(side + 0.6, 0.6, 0.6));
+    detail.regionTolerance = 0.002;
+    const ReconstructedSurface surface = dynamic.update(detail);
+    expectSound(surface, points, 1);
+    std::vector<Vec3> within;
+    std::copy_if(points.begin(), points.end(), std::back_inserter(within),
+      [&](const Vec3& p) { return detail.region.contains(p); });
+    const std::vector<double> all = distances(within, surface.mesh);
+    const auto far = std::count_if(
+      all.begin(), all.end(), [](double distance) { return distance > 0.002 * (1.0 + 1e-12); });
+    EXPECT_LE(far, static_cast<std::ptrdiff_t>(within.size() / 500));
+    EXPECT_EQ(far > 0, !surface.warnings.empty());
+    EXPECT_LE(farthest(points, surface.mesh), 0.02 * (1.0 + 1e-12));
+    const auto ids = idsOf(surface);
+    for (const std::int32_t id : idsOf(without))
+    {
+      if (!detail.region.contains(points[id]))
+      {
+        EXPECT_EQ(ids.count(id), 1u); // kept
+      }
+    }
+    for (const std::int32_t id : ids)
+    {
+      if (!detail.region.contains(points[id]))
+      {
+        EXPECT_EQ(idsOf(without).count(id), 1u); // nothing new
+      }
+    }
+  }
+  EXPECT_EQ(idsOf(dynamic.update(coarse)), idsOf(without));
+}
+
+TEST(DynamicReconstruction, TakesPointsInAndOut)
+{
+  const std::vector<Vec3> all = randomTorus(1.0, 0.4, 16000, 14);
+  DynamicReconstruction dynamic({ all.begin(), all.begin() + 10000 });
+  const LevelOfDetail detail{ 0.004, 0 };
+  dynamic.update(detail);
+  dynamic.add({ all.begin() + 10000, all.end() });
+  ReconstructedSurface surface = dynamic.update(detail);
+  expectSound(surface, all, 1);
+  EXPECT_LE(farthest(all, surface.mesh), 0.004 * (1.0 + 1e-12));
+  // Some vertices and some others; at last also those that the surface was first made of.
+  Random random(15);
+  std::vector<std::int32_t> left(all.size());
+  std::iota(left.begin(), left.end(), 0);
+  for (const double share : { 0.001, 0.1 })
+  {
+    std::vector<std::int32_t> gone;
+    std::vector<std::int32_t> stay;
+    for (const std::int32_t point : left)
+    {
+      (random.chance(share) ? gone : stay).push_back(point);
+    }
+    left = stay;
+    dynamic.remove(gone);
+    surface = dynamic.update(detail);
+    expectSound(surface, all, 1);
+    for (const std::int32_t point : gone)
+    {
+      EXPECT_EQ(std::count(surface.pointIds.begin(), surface.pointIds.end(), point), 0);
+    }
+    std::vector<Vec3> points;
+    for (const std::int32_t point : left)
+    {
+      points.push_back(all[point]);
+    }
+    EXPECT_LE(farthest(points, surface.mesh), 0.004 * (1.0 + 1e-12));
+  }
+  EXPECT_THROW(dynamic.remove({ 16000 }), std::out_of_range);
 }
 
 TEST(PointOctree, PicksADistinctPointPerLeaf)

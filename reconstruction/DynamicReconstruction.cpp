@@ -1,0 +1,652 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "reconstruction/DynamicReconstruction.h"
+
+#include "reconstruction/ConvectedSolid.h"
+#include "reconstruction/SpatialOrder.h"
+
+#include "core/base/Error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <sstream>
+#include <utility>
+
+namespace hybridtree
+{
+namespace
+{
+
+// Cells of the first subset are flat to this share of the tolerance. Sampled once a cell, a surface
+// of constant curvature is about three times as far from its facets as its points from their plane.
+constexpr double kFlat = 0.35;
+// Share of the wanted vertices in the first subset; the others go where the surface misses most.
+constexpr double kFirstShare = 0.85;
+// A subset for a tolerance this many times finer than the wanted one has too many vertices.
+constexpr double kTooFine = 1.5;
+// One that is this many times coarser, in vertices or tolerance, may have missed what matters now.
+constexpr double kTooCoarse = 2.5;
+// How often convection may start anew for points that could not be taken up.
+constexpr int kRestarts = 3;
+// How often points that were refused are tried again, where others have been placed since.
+constexpr int kTries = 6;
+
+void checkDetail(const LevelOfDetail& detail)
+{
+  if (!(detail.tolerance >= 0.0) || !std::isfinite(detail.tolerance))
+  {
+    throw InvalidParameter("Tolerance", detail.tolerance, "a finite length above 0");
+  }
+  if ((detail.tolerance > 0.0) == (detail.vertices > 0))
+  {
+    throw InvalidParameter(
+      "Tolerance", detail.tolerance, "above 0, or else a number of vertices; one of the two");
+  }
+  if (detail.vertices > 0 && detail.vertices < 4)
+  {
+    throw InvalidParameter("TargetVertices", double(detail.vertices), "at least 4");
+  }
+  if (!(detail.regionTolerance >= 0.0) || !std::isfinite(detail.regionTolerance))
+  {
+    throw InvalidParameter("RefineTolerance", detail.regionTolerance, "a finite length from 0 on");
+  }
+}
+
+} // namespace
+
+// What is refined, and how far.
+struct DynamicReconstruction::Phase
+{
+  double tolerance = 0.0;
+  std::size_t vertices = std::numeric_limits<std::size_t>::max();
+  const Box3* region = nullptr; // all, if null
+
+  static Phase ofLevel(const LevelOfDetail& detail)
+  {
+    Phase phase;
+    phase.tolerance = detail.tolerance;
+    phase.vertices = detail.vertices > 0 ? detail.vertices : phase.vertices;
+    return phase;
+  }
+  static Phase ofRegion(const LevelOfDetail& detail)
+  {
+    Phase phase;
+    phase.tolerance = detail.regionTolerance;
+    phase.region = &detail.region;
+    return phase;
+  }
+  bool wants(const Vec3& point, double distance) const
+  {
+    return distance > tolerance && (!region || region->contains(point));
+  }
+};
+
+DynamicReconstruction::DynamicReconstruction(
+  const std::vector<Vec3>& points, const ConvectionOptions& options, const Progress& progress)
+  : options_(options)
+{
+  this->add(points, progress);
+}
+
+void DynamicReconstruction::add(const std::vector<Vec3>& points, const Progress& progress)
+{
+  const std::size_t known = points_.size();
+  for (const std::int32_t k : spatialOrder(points, progress))
+  {
+    points_.push_back(points[k]);
+    ids_.push_back(static_cast<std::int32_t>(known) + k);
+  }
+  removed_.resize(points_.size(), 0);
+  octree_.reset();
+}
+
+void DynamicReconstruction::remove(const std::vector<std::int32_t>& points)
+{
+  std::vector<std::uint8_t> listed(points_.size(), 0);
+  for (const std::int32_t id : points)
+  {
+    listed.at(id) = 1;
+  }
+  octree_.reset();
+  for (std::int32_t point = 0; point < static_cast<std::int32_t>(ids_.size()); ++point)
+  {
+    if (listed[ids_[point]] == 0)
+    {
+      continue;
+    }
+    removed_[point] = 1;
+    if (state_ && static_cast<std::size_t>(point) < measured_)
+    {
+      state_->near.remove(point);
+    }
+  }
+  if (!state_)
+  {
+    return;
+  }
+  const auto& used = state_->pointOfSite;
+  const auto first = static_cast<std::size_t>(
+    std::find_if(used.begin(), used.end(), [&](std::int32_t p) { return removed_[p] != 0; }) -
+    used.begin());
+  if (first < state_->baseSites)
+  {
+    state_.reset();
+    return;
+  }
+  while (used.size() > first)
+  {
+    this->takeBack();
+  }
+  levelSteps_ = std::min(levelSteps_, state_->surface.stepCount());
+}
+
+ReconstructedSurface DynamicReconstruction::update(
+  const LevelOfDetail& detail, const Progress& progress)
+{
+  checkDetail(detail);
+  const auto count = static_cast<std::size_t>(std::count(removed_.begin(), removed_.end(), 0));
+  if (count <= detail.vertices)
+  {
+    return this->ofAll(progress);
+  }
+  if (!state_ || !this->reaches(detail))
+  {
+    this->startAgain(detail, ProgressPart(progress, 0.0, 0.5));
+  }
+  else
+  {
+    this->measureNew(progress);
+    this->takeBackTo(detail, ProgressPart(progress, 0.3, 0.5));
+  }
+  const Phase level = Phase::ofLevel(detail);
+  this->refine(level, ProgressPart(progress, 0.5, 0.8));
+  this->convectAgain(level, ProgressPart(progress, 0.8, 0.9));
+  levelSteps_ = state_->surface.stepCount();
+  if (!detail.region.isEmpty())
+  {
+    this->refine(Phase::ofRegion(detail), ProgressPart(progress, 0.9, 1.0));
+  }
+  return this->result(detail);
+}
+
+// Whether the first subset is no finer than the level, nor much coarser.
+bool DynamicReconstruction::reaches(const LevelOfDetail& detail) const
+{
+  const auto wanted = static_cast<double>(detail.vertices);
+  const auto base = static_cast<double>(state_->baseVertices);
+  const double flat = kFlat * detail.tolerance;
+  return detail.vertices > 0 ? base <= wanted && wanted <= kTooCoarse * base
+                             : kTooFine * roughness_ >= flat && roughness_ <= kTooCoarse * flat;
+}
+
+ReconstructedSurface DynamicReconstruction::ofAll(const Progress& progress) const
+{
+  const std::vector<std::int32_t> used = this->usedPoints();
+  std::vector<Vec3> points(used.size());
+  std::transform(
+    used.begin(), used.end(), points.begin(), [&](std::int32_t point) { return points_[point]; });
+  ReconstructedSurface surface = reconstruct(points, options_, progress);
+  for (std::int32_t& point : surface.pointIds)
+  {
+    point = ids_[used[point]];
+  }
+  return surface;
+}
+
+std::vector<std::int32_t> DynamicReconstruction::usedPoints() const
+{
+  std::vector<std::int32_t> points;
+  for (std::size_t k = 0; k < points_.size(); ++k)
+  {
+    if (removed_[k] == 0)
+    {
+      points.push_back(static_cast<std::int32_t>(k));
+    }
+  }
+  return points;
+}
+
+void DynamicReconstruction::startAgain(const LevelOfDetail& detail, const Progress& progress)
+{
+  state_ = std::make_unique<State>(points_);
+  levelSteps_ = 0;
+  if (!octree_)
+  {
+    active_ = this->usedPoints();
+    activePoints_.resize(active_.size());
+    std::transform(active_.begin(), active_.end(), activePoints_.begin(),
+      [&](std::int32_t point) { return points_[point]; });
+    octree_ = std::make_unique<PointOctree>(activePoints_, ProgressPart(progress, 0.0, 0.1));
+  }
+  if (detail.vertices > 0)
+  {
+    roughness_ =
+      octree_->splitInto(static_cast<std::size_t>(kFirstShare * double(detail.vertices)));
+  }
+  else
+  {
+    roughness_ = kFlat * detail.tolerance;
+    octree_->splitToTolerance(roughness_);
+  }
+  const std::vector<std::int32_t> chosen = this->representatives();
+  checkOptions(std::max(chosen.size(), detail.vertices), options_);
+  this->addSites(chosen, ProgressPart(progress, 0.1, 0.4));
+  while (!this->convect(ProgressPart(progress, 0.4, 0.8)) && this->addFiner(progress))
+  {
+  }
+  this->measureAll(progress);
+}
+
+std::vector<std::int32_t> DynamicReconstruction::representatives() const
+{
+  std::vector<std::int32_t> chosen = octree_->representatives();
+  std::transform(chosen.begin(), chosen.end(), chosen.begin(),
+    [&](std::int32_t point) { return active_[point]; });
+  return chosen;
+}
+
+// Twice the points, where the first ones did not do; at last all. \returns whether any were left.
+bool DynamicReconstruction::addFiner(const Progress& progress)
+{
+  const std::size_t leaves = octree_->leafCount();
+  octree_->splitInto(2 * leaves);
+  const bool finer = octree_->leafCount() > leaves;
+  std::vector<std::int32_t> chosen = finer ? this->representatives() : active_;
+  std::vector<std::uint8_t> used(points_.size(), 0);
+  for (const std::int32_t point : state_->pointOfSite)
+  {
+    used[point] = 1;
+  }
+  chosen.erase(std::remove_if(chosen.begin(), chosen.end(),
+                 [&](std::int32_t point) { return used[point] != 0; }),
+    chosen.end());
+  checkOptions(state_->surface.sites().size() + chosen.size(), options_);
+  this->addSites(chosen, progress);
+  return finer || !chosen.empty();
+}
+
+// Without regard to the surface, which is to be found again.
+void DynamicReconstruction::addSites(
+  const std::vector<std::int32_t>& points, const Progress& progress)
+{
+  std::vector<Vec3> sites(points.size());
+  std::transform(points.begin(), points.end(), sites.begin(),
+    [&](std::int32_t point) { return points_[point]; });
+  const std::vector<std::int32_t> order = spatialOrder(sites, progress);
+  for (std::size_t k = 0; k < order.size(); ++k)
+  {
+    const std::int32_t point = points[order[k]];
+    sites[k] = points_[point];
+    state_->pointOfSite.push_back(point);
+  }
+  state_->surface.insert(sites, progress);
+}
+
+// \returns whether there is a solid to go on from.
+bool DynamicReconstruction::convect(const Progress& progress)
+{
+  DynamicSurface& surface = state_->surface;
+  if (!surface.spansVolume() && surface.sites().size() < active_.size())
+  {
+    return false;
+  }
+  const Tetrahedralization tetrahedra = surface.tetrahedralization(progress);
+  state_->warnings.clear();
+  surface.setInside(tetrahedra, convectSolid(tetrahedra, options_, state_->warnings, progress));
+  std::vector<std::uint8_t> seen(surface.sites().size(), 0);
+  for (const std::int32_t triangle : surface.surface())
+  {
+    for (const std::int32_t site : surface.triangle(triangle))
+    {
+      seen[site] = 1;
+    }
+  }
+  state_->baseVertices = static_cast<std::size_t>(std::count(seen.begin(), seen.end(), 1));
+  state_->baseSites = surface.sites().size();
+  state_->moreTriangles = 0;
+  state_->reach.clear();
+  return state_->warnings.empty();
+}
+
+void DynamicReconstruction::measureAll(const Progress& progress)
+{
+  state_->near.clear();
+  state_->near.measure(this->usedPoints(), state_->surface, progress);
+  measured_ = points_.size();
+}
+
+void DynamicReconstruction::measureNew(const Progress& progress)
+{
+  std::vector<std::int32_t> points;
+  for (; measured_ < points_.size(); ++measured_)
+  {
+    if (removed_[measured_] == 0)
+    {
+      points.push_back(static_cast<std::int32_t>(measured_));
+    }
+  }
+  state_->near.measure(points, state_->surface, progress);
+}
+
+// Of a closed manifold of constant topology, a vertex for every two triangles.
+std::size_t DynamicReconstruction::vertexCount() const
+{
+  return state_->baseVertices + static_cast<std::size_t>(state_->moreTriangles / 2);
+}
+
+std::ptrdiff_t DynamicReconstruction::eulerNumber() const
+{
+  return std::ptrdiff_t(this->vertexCount()) - std::ptrdiff_t(state_->surface.surface().size() / 2);
+}
+
+void DynamicReconstruction::follow()
+{
+  const DynamicSurface::Change& change = state_->surface.lastChange();
+  state_->moreTriangles +=
+    std::ptrdiff_t(change.added.size()) - std::ptrdiff_t(change.removed.size());
+  state_->near.follow(state_->surface);
+}
+
+void DynamicReconstruction::takeBack()
+{
+  if (state_->surface.undo())
+  {
+    state_->pointOfSite.pop_back();
+  }
+  state_->reach.pop_back();
+  this->follow();
+}
+
+void DynamicReconstruction::takeBackTo(const LevelOfDetail& detail, const Progress& progress)
+{
+  const auto tooFine = [&]
+  {
+    const std::size_t steps = state_->surface.stepCount();
+    return steps > 0 &&
+      (steps > levelSteps_ ||
+        (detail.vertices > 0 ? this->vertexCount() > detail.vertices
+                             : state_->reach.back() <= detail.tolerance));
+  };
+  for (std::size_t step = 0; tooFine(); ++step)
+  {
+    if (step % 256 == 0)
+    {
+      progress.check();
+    }
+    this->takeBack();
+  }
+}
+
+void DynamicReconstruction::refine(const Phase& phase, const Progress& progress)
+{
+  int tries = 0;
+  while (
+    this->refineOnce(phase, progress) && this->vertexCount() < phase.vertices && ++tries < kTries)
+  {
+  }
+  // What was refused may be near to triangles that it was not measured against.
+  if (phase.tolerance > 0.0)
+  {
+    state_->near.measure(this->farPoints(phase), state_->surface, progress);
+  }
+}
+
+// In rounds, each of the farthest points. \returns whether any was refused, and others placed.
+bool DynamicReconstruction::refineOnce(const Phase& phase, const Progress& progress)
+{
+  candidates_.clear();
+  state_->near.forgive();
+  for (const std::int32_t triangle : state_->surface.surface())
+  {
+    this->offerFarthest(phase, triangle);
+  }
+  bool placed = false;
+  bool refused = false;
+  std::size_t step = 0;
+  for (std::vector<std::int32_t> round = this->nextRound(phase);
+       !round.empty() && this->vertexCount() < phase.vertices; round = this->nextRound(phase))
+  {
+    for (const std::int32_t point : round)
+    {
+      if (++step % 256 == 0)
+      {
+        progress.check();
+        progress.report(1.0 - 1.0 / (1.0 + 1e-4 * double(step)));
+      }
+      if (this->vertexCount() < phase.vertices && !state_->near.refused(point) &&
+        phase.wants(points_[point], state_->near.distance(point)))
+      {
+        (this->place(phase, point) ? placed : refused) = true;
+      }
+    }
+  }
+  return placed && refused;
+}
+
+// Of the candidates the farthest: those more than half as far as the farthest of all, but no more
+// than half of what is wanted. In the order of the points, which is one in space: to visit places
+// at random would take twice as long.
+std::vector<std::int32_t> DynamicReconstruction::nextRound(const Phase& phase)
+{
+  constexpr double kNear = 0.5;
+  candidates_.erase(std::remove_if(candidates_.begin(), candidates_.end(),
+                      [&](const Candidate& candidate)
+                      {
+                        return state_->near.refused(candidate.point) ||
+                          state_->near.distance(candidate.point) != candidate.distance;
+                      }),
+    candidates_.end());
+  std::size_t count = candidates_.size();
+  if (const std::size_t wanted = phase.vertices - std::min(phase.vertices, this->vertexCount());
+      wanted / 2 < count)
+  {
+    count = wanted / 2 + 1;
+    std::nth_element(candidates_.begin(),
+      candidates_.begin() + static_cast<std::ptrdiff_t>(count - 1), candidates_.end());
+  }
+  const auto chosen = candidates_.begin() + static_cast<std::ptrdiff_t>(count);
+  double farthest = 0.0;
+  std::for_each(candidates_.begin(), chosen,
+    [&](const Candidate& candidate) { farthest = std::max(farthest, candidate.distance); });
+  std::vector<std::int32_t> round;
+  std::vector<Candidate> rest(chosen, candidates_.end());
+  std::for_each(candidates_.begin(), chosen,
+    [&](const Candidate& candidate)
+    {
+      if (candidate.distance > kNear * farthest)
+      {
+        round.push_back(candidate.point);
+      }
+      else
+      {
+        rest.push_back(candidate);
+      }
+    });
+  candidates_.swap(rest);
+  std::sort(round.begin(), round.end());
+  round.erase(std::unique(round.begin(), round.end()), round.end());
+  return round;
+}
+
+// \returns whether it is no longer too far.
+bool DynamicReconstruction::place(const Phase& phase, std::int32_t point)
+{
+  DynamicSurface& surface = state_->surface;
+  TrianglePoints& near = state_->near;
+  const std::int32_t triangle = near.triangle(point);
+  const double distance = near.distance(point);
+  const std::int32_t other = near.neighbor(point);
+  const auto placed = [&]
+  {
+    state_->reach.push_back(distance);
+    this->follow();
+    for (const std::int32_t added : surface.lastChange().added)
+    {
+      this->offerFarthest(phase, added);
+    }
+    if (other >= 0)
+    {
+      this->offerFarthest(phase, near.triangle(other));
+    }
+    return true;
+  };
+  switch (surface.place(points_[point], surface.triangle(triangle)[0], phase.tolerance))
+  {
+    case DynamicSurface::Outcome::Prepared:
+      placed();
+      return this->place(phase, point);
+    case DynamicSurface::Outcome::Placed:
+      state_->pointOfSite.push_back(point);
+      [[fallthrough]];
+    case DynamicSurface::Outcome::Surfaced:
+      near.move(point, surface.lastChange().removed.front(), 0.0);
+      return placed();
+    case DynamicSurface::Outcome::Near:
+      near.move(point, surface.nearTriangle(), surface.nearDistance());
+      break;
+    case DynamicSurface::Outcome::Coincides:
+      near.move(point, triangle, 0.0);
+      break;
+    case DynamicSurface::Outcome::Refused:
+      near.refuse(point);
+      this->offerFarthest(phase, triangle);
+      return false;
+  }
+  this->offerFarthest(phase, triangle);
+  return true;
+}
+
+void DynamicReconstruction::offerFarthest(const Phase& phase, std::int32_t triangle)
+{
+  Candidate farthest{ 0.0, -1 };
+  state_->near.forEach(triangle,
+    [&](std::int32_t point)
+    {
+      const Candidate candidate{ state_->near.distance(point), point };
+      if (phase.wants(points_[point], candidate.distance) && !state_->near.refused(point) &&
+        (farthest.point < 0 || candidate < farthest))
+      {
+        farthest = candidate;
+      }
+    });
+  if (farthest.point >= 0)
+  {
+    candidates_.push_back(farthest);
+  }
+}
+
+std::vector<std::int32_t> DynamicReconstruction::farPoints(const Phase& phase) const
+{
+  std::vector<std::int32_t> points;
+  for (const std::int32_t point : this->usedPoints())
+  {
+    if (phase.wants(points_[point], state_->near.distance(point)))
+    {
+      points.push_back(point);
+    }
+  }
+  return points;
+}
+
+// For points that could not be taken up. What comes out is kept if it does much better; with
+// another topology, only if that was what most of them missed.
+void DynamicReconstruction::convectAgain(const Phase& phase, const Progress& progress)
+{
+  if (phase.tolerance <= 0.0)
+  {
+    return;
+  }
+  std::vector<std::int32_t> far = this->farPoints(phase);
+  std::size_t fewest = far.size();
+  std::ptrdiff_t topology = this->eulerNumber();
+  State best = *state_;
+  for (int restart = 0; restart < kRestarts && !far.empty(); ++restart)
+  {
+    this->addSites(far, progress);
+    const bool solid = this->convect(progress);
+    this->measureAll(progress);
+    this->refine(phase, progress);
+    far = this->farPoints(phase);
+    const std::size_t better = this->eulerNumber() == topology ? 2 : 10;
+    if (solid && better * far.size() < fewest)
+    {
+      best = *state_;
+      fewest = far.size();
+      topology = this->eulerNumber();
+    }
+  }
+  *state_ = std::move(best);
+}
+
+ReconstructedSurface DynamicReconstruction::result(const LevelOfDetail& detail) const
+{
+  ReconstructedSurface result;
+  result.warnings = state_->warnings;
+  this->warn(detail, result.warnings);
+  const DynamicSurface& surface = state_->surface;
+  const std::vector<std::int32_t> triangles = surface.surface();
+  std::vector<std::int32_t> meshPoint(surface.sites().size(), -1);
+  result.mesh.triangles.reserve(triangles.size());
+  for (const std::int32_t number : triangles)
+  {
+    Triangle triangle = surface.triangle(number);
+    for (std::int32_t& corner : triangle)
+    {
+      std::int32_t& point = meshPoint[corner];
+      if (point < 0)
+      {
+        point = static_cast<std::int32_t>(result.mesh.points.size());
+        result.mesh.points.push_back(surface.sites()[corner]);
+        result.pointIds.push_back(ids_[state_->pointOfSite[corner]]);
+      }
+      corner = point;
+    }
+    result.mesh.triangles.push_back(triangle);
+  }
+  setAreaNormals(result.mesh);
+  return result;
+}
+
+void DynamicReconstruction::warn(
+  const LevelOfDetail& detail, std::vector<std::string>& warnings) const
+{
+  const std::size_t vertices = this->vertexCount();
+  if (detail.vertices > 0 && detail.region.isEmpty() &&
+    double(vertices) > 1.05 * double(detail.vertices))
+  {
+    warnings.push_back("TargetVertices " + std::to_string(detail.vertices) +
+      " are too few to tell inside from outside: the surface has " + std::to_string(vertices) +
+      ".");
+  }
+  if (detail.tolerance > 0.0)
+  {
+    this->warnOf(Phase::ofLevel(detail), "Tolerance", warnings);
+  }
+  if (!detail.region.isEmpty() && detail.regionTolerance > 0.0)
+  {
+    this->warnOf(Phase::ofRegion(detail), "RefineTolerance", warnings);
+  }
+}
+
+void DynamicReconstruction::warnOf(
+  const Phase& phase, const std::string& name, std::vector<std::string>& warnings) const
+{
+  const std::vector<std::int32_t> far = this->farPoints(phase);
+  if (far.empty())
+  {
+    return;
+  }
+  double most = 0.0;
+  for (const std::int32_t point : far)
+  {
+    most = std::max(most, state_->near.distance(point));
+  }
+  std::ostringstream text;
+  text << far.size() << " of " << points_.size() << " points are farther than " << name << " "
+       << phase.tolerance << " from the surface, the farthest by " << most
+       << ": inside of it, far from all others, or where it would touch itself.";
+  warnings.push_back(text.str());
+}
+
+} // namespace hybridtree

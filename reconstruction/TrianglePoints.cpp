@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "reconstruction/TrianglePoints.h"
+
+#include "core/geometry/PointTriangle.h"
+#include "core/mesh/MeshDistance.h"
+
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <utility>
+
+namespace hybridtree
+{
+
+void TrianglePoints::measure(
+  const std::vector<std::int32_t>& points, const DynamicSurface& surface, const Progress& progress)
+{
+  states_.resize(points_->size());
+  const std::vector<std::int32_t> triangles = surface.surface();
+  if (points.empty() || triangles.empty())
+  {
+    return;
+  }
+  auto mesh = std::make_shared<TriangleMesh>();
+  mesh->points = surface.sites();
+  for (const std::int32_t triangle : triangles)
+  {
+    mesh->triangles.push_back(surface.triangle(triangle));
+  }
+  const MeshDistance distances(mesh);
+  progress.check();
+  const std::size_t count = points.size();
+  std::vector<double> coordinates(3 * count);
+  std::vector<double> distance(count);
+  std::vector<std::int32_t> nearest(count);
+  std::vector<double> foot(3 * count);
+  for (std::size_t k = 0; k < count; ++k)
+  {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      coordinates[axis * count + k] = (*points_)[points[k]][static_cast<Eigen::Index>(axis)];
+    }
+  }
+  const double* at = coordinates.data();
+  distances.nearest({ at, at + count, at + 2 * count, count },
+    std::numeric_limits<double>::infinity(), distance.data(), nearest.data(),
+    { foot.data(), foot.data() + count, foot.data() + 2 * count });
+  progress.check();
+  for (std::size_t k = 0; k < count; ++k)
+  {
+    this->move(points[k], triangles[nearest[k]], distance[k]);
+  }
+}
+
+void TrianglePoints::clear()
+{
+  first_.clear();
+  states_.assign(points_->size(), State());
+}
+
+void TrianglePoints::forgive()
+{
+  for (State& state : states_)
+  {
+    state.refused = false;
+  }
+}
+
+void TrianglePoints::put(std::int32_t point, std::int32_t triangle, double distance)
+{
+  if (first_.size() <= static_cast<std::size_t>(triangle))
+  {
+    first_.resize(static_cast<std::size_t>(triangle) + 1 + first_.size() / 2, -1);
+  }
+  states_[point] = { distance, triangle, first_[triangle], false };
+  first_[triangle] = point;
+}
+
+void TrianglePoints::remove(std::int32_t point)
+{
+  State& state = states_[point];
+  if (state.triangle < 0)
+  {
+    return;
+  }
+  std::int32_t* link = &first_[state.triangle];
+  while (*link != point)
+  {
+    link = &states_[*link].next;
+  }
+  *link = state.next;
+  state = State();
+}
+
+void TrianglePoints::move(std::int32_t point, std::int32_t triangle, double distance)
+{
+  this->remove(point);
+  this->put(point, triangle, distance);
+}
+
+std::int32_t TrianglePoints::neighbor(std::int32_t point) const
+{
+  const State& state = states_[point];
+  const std::int32_t first = first_[state.triangle];
+  return first != point ? first : state.next;
+}
+
+std::int32_t TrianglePoints::takeList(std::int32_t triangle)
+{
+  return static_cast<std::size_t>(triangle) < first_.size() ? std::exchange(first_[triangle], -1)
+                                                            : -1;
+}
+
+void TrianglePoints::follow(const DynamicSurface& surface)
+{
+  const DynamicSurface::Change& change = surface.lastChange();
+  pool_.clear();
+  for (const std::int32_t triangle : change.removed)
+  {
+    for (std::int32_t at = this->takeList(triangle); at >= 0; at = states_[at].next)
+    {
+      pool_.push_back(at);
+    }
+  }
+  // New numbers may be old ones of others: all lists are taken before any is put.
+  std::vector<std::pair<std::int32_t, std::int32_t>> lists; // first point, triangle
+  for (const auto& [from, to] : change.renamed)
+  {
+    if (const std::int32_t list = this->takeList(from); list >= 0)
+    {
+      lists.emplace_back(list, to);
+    }
+  }
+  for (const auto& [list, triangle] : lists)
+  {
+    for (std::int32_t at = list; at >= 0;)
+    {
+      const State state = states_[at];
+      this->put(at, triangle, state.distance);
+      states_[at].refused = state.refused;
+      at = state.next;
+    }
+  }
+  const std::vector<Vec3>& sites = surface.sites();
+  for (const std::int32_t point : pool_)
+  {
+    double least = std::numeric_limits<double>::infinity();
+    std::int32_t nearest = change.added.front();
+    for (const std::int32_t triangle : change.added)
+    {
+      const Triangle t = surface.triangle(triangle);
+      const double squared =
+        nearestOnTriangle((*points_)[point], sites[t[0]], sites[t[1]], sites[t[2]]).squaredDistance;
+      if (squared < least)
+      {
+        least = squared;
+        nearest = triangle;
+      }
+    }
+    this->put(point, nearest, std::sqrt(least));
+  }
+}
+
+} // namespace hybridtree
