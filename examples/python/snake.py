@@ -3,16 +3,13 @@
 
     xvfb-run -a pvpython examples/python/snake.py [output folder]
 
-Writes snake-skeleton.vtp, 250 polylines with a radius at each point: a coiled body in 190 short splines, a
+Writes snake-curves.vtp, 250 polylines with a radius at each point: a coiled body in 190 short splines, a
 head, a forked tongue and a crest of spines. HybridTree Curve Skeletons makes one blended shape of it.
 """
 import math
 import os
 
-from stage import *  # paraview.simple and our helpers
-from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
-from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
+from figures import *  # paraview.simple and our helpers
 
 BODY = 190
 SPINES = 48
@@ -30,10 +27,6 @@ def spine_of_snake(t):
 def thickness(t):
     """Radius of the body: a thin tail, a thick middle, a neck."""
     return 0.02 + 0.15 * math.sin(math.pi * min(t / 0.75, 1.0) * 0.5) - 0.05 * max(0.0, t - 0.75) / 0.25
-
-
-def add(a, b, scale=1.0):
-    return tuple(u + scale * v for u, v in zip(a, b))
 
 
 def unit(v):
@@ -75,39 +68,12 @@ def curves():
         yield [(top, 0.035), (add(add(top, (0, 1, 0), 0.07), back, 0.015), 0.026), (tip, 0.018)]
 
 
-def skeleton(path):
-    points, lines, radius = vtkPoints(), vtkCellArray(), vtkDoubleArray()
-    points.SetDataTypeToDouble()
-    radius.SetName("Radius")
-    count = 0
-    for curve in curves():
-        lines.InsertNextCell(len(curve))
-        for point, r in curve:
-            lines.InsertCellPoint(points.InsertNextPoint(point))
-            radius.InsertNextValue(r)
-        count += 1
-    data = vtkPolyData()
-    data.SetPoints(points)
-    data.SetLines(lines)
-    data.GetPointData().AddArray(radius)
-    writer = vtkXMLPolyDataWriter()
-    writer.SetFileName(path)
-    writer.SetDataModeToBinary()
-    writer.SetInputData(data)
-    writer.Write()
-    return count
-
-
 folder = output_folder("snake")
-globals().update(load_plugin())
 view = make_view()
-path = os.path.join(folder, "snake-skeleton.vtp")
-print(f"{skeleton(path)} spline primitives in {os.path.relpath(path)}")
-lines = XMLPolyDataReader(registrationName="skeleton", FileName=[path])
-snake = HybridTreeCurveSkeletons(
-    registrationName="snake", Input=lines, RadiusArray="Radius", SurfaceRadius=0.1, InfluenceRadius=0.16, EdgeLength=0.013
-)
-look(view, direction=(0.55, 0.55, 1.0), focus=(0.0, 0.4, 0.0), distance=3.6)
+splines_of_snake = list(curves())
+print(f"{len(splines_of_snake)} spline primitives")
+snake = splines("snake", splines_of_snake, folder, SurfaceRadius=0.1, InfluenceRadius=0.16, EdgeLength=0.013)
+look(view, direction=(0.55, 0.55, 1.0), focus=(0.0, 0.55, 0.0), distance=5.4)
 picture(view, snake, os.path.join(folder, "snake.png"), colour=[0.42, 0.58, 0.38])
 check_closed(snake, "snake")
 SaveData(os.path.join(folder, "snake.vtp"), proxy=snake, DataMode="Binary")

@@ -3,6 +3,7 @@
 import os
 import sys
 
+import paraview.simple
 from paraview.simple import *  # noqa: F401,F403 - the scripts read as a ParaView trace does
 
 CLAY = [0.80, 0.72, 0.62]
@@ -35,6 +36,7 @@ def output_folder(name):
 
 def make_view(size=(1200, 900)):
     view = CreateView("RenderView")
+    paraview.simple._DisableFirstRenderCameraReset()  # look() says where from, also the first time
     view.ViewSize = list(size)
     view.UseColorPaletteForBackground = 0
     view.BackgroundColorMode = "Gradient"
