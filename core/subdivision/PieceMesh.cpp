@@ -46,13 +46,7 @@ public:
   }
 
 private:
-  struct Middles
-  {
-    std::vector<Vec3> points;
-    std::vector<double> value;
-    std::vector<Vec3> gradient;
-  };
-  Middles middlesOf(const std::vector<Edge>& edges) const;
+  std::vector<Vec3> middlesOf(const std::vector<Edge>& edges) const;
   double lengthOf(std::int32_t a, std::int32_t b) const
   {
     return (mesh_.points[b] - mesh_.points[a]).norm();
@@ -145,14 +139,13 @@ bool Refiner::isOff(const Edge& edge, double value, double length) const
   return isLong || std::abs(value - kThreshold) > tolerance;
 }
 
-Refiner::Middles Refiner::middlesOf(const std::vector<Edge>& edges) const
+std::vector<Vec3> Refiner::middlesOf(const std::vector<Edge>& edges) const
 {
-  Middles result;
+  std::vector<Vec3> result;
   for (const auto& [a, b] : edges)
   {
-    result.points.push_back(0.5 * (mesh_.points[a] + mesh_.points[b]));
+    result.push_back(0.5 * (mesh_.points[a] + mesh_.points[b]));
   }
-  fieldAndGradientAt(field_, result.points, result.value, result.gradient);
   return result;
 }
 
@@ -160,12 +153,12 @@ Refiner::Middles Refiner::middlesOf(const std::vector<Edge>& edges) const
 bool Refiner::splitEdges()
 {
   const std::vector<Edge> edges = newEdges();
-  const Middles middles = middlesOf(edges);
+  const std::vector<double> value = fieldAt(field_, middlesOf(edges));
   std::vector<Edge> split;
   for (std::size_t k = 0; k < edges.size(); ++k)
   {
     const auto [a, b] = edges[k];
-    if (isOff(edges[k], middles.value[k], lengthOf(a, b)))
+    if (isOff(edges[k], value[k], lengthOf(a, b)))
     {
       middles_[keyOf(a, b)] = kToSplit;
       split.push_back(edges[k]);
@@ -211,22 +204,24 @@ void Refiner::addLongestEdges(std::vector<Edge>& split)
 
 void Refiner::addMiddles(const std::vector<Edge>& edges)
 {
-  const Middles middles = middlesOf(edges);
+  const std::vector<Vec3> middles = middlesOf(edges);
+  std::vector<double> value;
+  std::vector<Vec3> gradient;
+  fieldAndGradientAt(field_, middles, value, gradient);
   std::vector<SkeletonAxis> axes;
   for (std::size_t k = 0; k < edges.size(); ++k)
   {
     const auto [a, b] = edges[k];
-    const double steepness = middles.gradient[k].norm();
+    const double steepness = gradient[k].norm();
     const Vec3 along = mesh_.normals[a] + mesh_.normals[b];
-    const Vec3 outward =
-      steepness > 0.0 ? Vec3(-middles.gradient[k] / steepness) : along.normalized();
+    const Vec3 outward = steepness > 0.0 ? Vec3(-gradient[k] / steepness) : along.normalized();
     // An edge that cuts through a body does not go around it: its middle stays inside.
-    const bool cuts = middles.value[k] > kThreshold &&
+    const bool cuts = value[k] > kThreshold &&
       (!isOnSurface(edges[k]) || mesh_.normals[a].dot(mesh_.normals[b]) < kOpposite);
     const double reach = cuts ? 0.0 : kReach * lengthOf(a, b);
-    axes.push_back({ middles.points[k], outward, 0.0, -reach, reach, 0.5 * reach });
+    const double start = steepness > 0.0 ? (value[k] - kThreshold) / steepness : 0.0;
+    axes.push_back({ middles[k], outward, start, -reach, reach, 0.5 * reach });
   }
-  std::vector<Vec3> gradient;
   const std::vector<double> found = slideAxes(field_, axes, &gradient);
   for (std::size_t k = 0; k < edges.size(); ++k)
   {

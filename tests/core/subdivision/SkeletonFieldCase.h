@@ -10,13 +10,15 @@ namespace hybridtree::test
 /// A skeleton and the leaf around it, as meshes of pieces want them.
 struct SkeletonFieldCase
 {
-  explicit SkeletonFieldCase(
-    SkeletonGraph shape, int level = 2, SubdivisionScheme scheme = SubdivisionScheme::Approximating)
+  explicit SkeletonFieldCase(SkeletonGraph shape, int level = 2,
+    SubdivisionScheme scheme = SubdivisionScheme::Approximating,
+    BlendingKind blending = BlendingKind::All)
     : graph(std::move(shape)), level(level), refined(subdivide(graph, scheme, level))
   {
     SubdivisionSkeletonOptions options;
     options.scheme = scheme;
     options.level = level;
+    options.blending.kind = blending;
     node = makeSubdivisionSkeleton(graph, options);
   }
 
