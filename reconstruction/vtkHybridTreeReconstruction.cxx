@@ -5,6 +5,7 @@
 #include "core/nodes/MeshNode.h"
 #include "reconstruction/Convection.h"
 #include "reconstruction/FilterProgress.h"
+#include "reconstruction/KeptReconstruction.h"
 #include "reconstruction/LevelOfDetail.h"
 #include "reconstruction/PointCloud.h"
 #include "vtkCellArray.h"
@@ -122,7 +123,10 @@ void writeSource(vtkPolyData* output)
 vtkStandardNewMacro(vtkHybridTreeReconstruction);
 
 //------------------------------------------------------------------------------
-vtkHybridTreeReconstruction::vtkHybridTreeReconstruction() = default;
+vtkHybridTreeReconstruction::vtkHybridTreeReconstruction()
+  : Kept(std::make_unique<hybridtree::KeptReconstruction>())
+{
+}
 
 vtkHybridTreeReconstruction::~vtkHybridTreeReconstruction() = default;
 
@@ -227,9 +231,20 @@ void vtkHybridTreeReconstruction::Reconstruct(vtkDataSet* input, vtkPolyData* ou
     default:
       break;
   }
-  ReconstructedSurface surface = this->LevelOfDetail == ALL_POINTS
-    ? reconstruct(points, options, part)
-    : reconstruct(points, detail, options, part);
+  if (this->RefineRegion)
+  {
+    const Vec3 half = 0.5 * Vec3(this->RefineLengths).cwiseAbs();
+    detail.region = Box3(Vec3(this->RefineCenter) - half, Vec3(this->RefineCenter) + half);
+    detail.regionTolerance = this->RefineTolerance;
+  }
+  const bool keep = this->KeepState && this->LevelOfDetail != ALL_POINTS;
+  if (!keep)
+  {
+    this->Kept->clear();
+  }
+  ReconstructedSurface surface = keep   ? this->Kept->update(points, detail, options, part)
+    : this->LevelOfDetail == ALL_POINTS ? reconstruct(points, options, part)
+                                        : reconstruct(points, detail, options, part);
   for (std::int32_t& id : surface.pointIds)
   {
     id = chosen[id];
@@ -261,4 +276,11 @@ void vtkHybridTreeReconstruction::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Tolerance: " << this->Tolerance << "\n";
   os << indent << "TargetVertices: " << this->TargetVertices << "\n";
   os << indent << "DetailLevel: " << this->DetailLevel << "\n";
+  os << indent << "RefineRegion: " << this->RefineRegion << "\n";
+  os << indent << "RefineCenter: " << this->RefineCenter[0] << " " << this->RefineCenter[1] << " "
+     << this->RefineCenter[2] << "\n";
+  os << indent << "RefineLengths: " << this->RefineLengths[0] << " " << this->RefineLengths[1]
+     << " " << this->RefineLengths[2] << "\n";
+  os << indent << "RefineTolerance: " << this->RefineTolerance << "\n";
+  os << indent << "KeepState: " << this->KeepState << "\n";
 }

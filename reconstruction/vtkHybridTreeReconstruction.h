@@ -24,7 +24,13 @@
 #include "HybridTreeReconstructionModule.h" // for export macro
 #include "vtkPolyDataAlgorithm.h"
 
+#include <memory> // for the state that is kept
+
 class vtkDataSet;
+namespace hybridtree
+{
+class KeptReconstruction;
+}
 
 class HYBRIDTREERECONSTRUCTION_EXPORT vtkHybridTreeReconstruction : public vtkPolyDataAlgorithm
 {
@@ -135,6 +141,35 @@ public:
   vtkGetMacro(DetailLevel, double);
   ///@}
 
+  ///@{
+  /**
+   * For all but ALL_POINTS: let the points in an axis-aligned box, RefineCenter +- RefineLengths /
+   * 2 in world coordinates, be no farther than RefineTolerance from the surface (world units, >= 0;
+   * 0, the default: all points in the box are used). The vertices come on top of those of the
+   * level. Default off.
+   */
+  vtkSetMacro(RefineRegion, bool);
+  vtkGetMacro(RefineRegion, bool);
+  vtkBooleanMacro(RefineRegion, bool);
+  vtkSetVector3Macro(RefineCenter, double);
+  vtkGetVector3Macro(RefineCenter, double);
+  vtkSetVector3Macro(RefineLengths, double);
+  vtkGetVector3Macro(RefineLengths, double);
+  vtkSetMacro(RefineTolerance, double);
+  vtkGetMacro(RefineTolerance, double);
+  ///@}
+
+  ///@{
+  /**
+   * For all but ALL_POINTS: keep what the surface was made from, about 250 bytes for each point and
+   * 3 KB for each vertex, so that a change of the level of detail or of the region, and points that
+   * are appended to the input, cost only what they change. Default on; off frees it.
+   */
+  vtkSetMacro(KeepState, bool);
+  vtkGetMacro(KeepState, bool);
+  vtkBooleanMacro(KeepState, bool);
+  ///@}
+
 protected:
   vtkHybridTreeReconstruction();
   ~vtkHybridTreeReconstruction() override;
@@ -157,12 +192,19 @@ protected:
   double Tolerance = 0.01;
   int TargetVertices = 30000;
   double DetailLevel = 0.25;
+  bool RefineRegion = false;
+  double RefineCenter[3] = { 0.0, 0.0, 0.0 };
+  double RefineLengths[3] = { 1.0, 1.0, 1.0 };
+  double RefineTolerance = 0.0;
+  bool KeepState = true;
 
 private:
   vtkHybridTreeReconstruction(const vtkHybridTreeReconstruction&) = delete;
   void operator=(const vtkHybridTreeReconstruction&) = delete;
 
   void Reconstruct(vtkDataSet* input, vtkPolyData* output);
+
+  std::unique_ptr<hybridtree::KeptReconstruction> Kept;
 };
 
 #endif

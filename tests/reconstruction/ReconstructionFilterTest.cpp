@@ -25,6 +25,7 @@
 
 #include <functional>
 #include <limits>
+#include <set>
 
 namespace
 {
@@ -249,6 +250,54 @@ TEST(ReconstructionFilter, NamesTheParameterThatIsWrong)
   const std::vector<Vec3> points = randomSphere(100, 3);
   expectError(points, "Spacing", [](auto* filter) { filter->SetSpacing(-1.0); });
   expectError(points, "PocketFactor", [](auto* filter) { filter->SetPocketFactor(0.5); });
+}
+
+std::vector<vtkIdType> pointIds(vtkPolyData* output)
+{
+  auto* ids = vtkIdTypeArray::SafeDownCast(output->GetPointData()->GetArray("PointIds"));
+  return { ids->Begin(), ids->End() };
+}
+
+TEST(ReconstructionFilter, KeepsItsStateFromLevelToLevel)
+{
+  const std::vector<Vec3> points = randomTorus(1.0, 0.4, 8000, 11);
+  vtkNew<vtkPolyData> input;
+  fill(input, points, VTK_DOUBLE);
+  vtkNew<vtkHybridTreeReconstruction> filter;
+  filter->SetInputData(input);
+  filter->SetLevelOfDetailToTargetVertices();
+  const auto idsAt = [&](int vertices)
+  {
+    filter->SetTargetVertices(vertices);
+    filter->Update();
+    return pointIds(filter->GetOutput());
+  };
+  const auto before = idsAt(1500);
+  EXPECT_EQ(before.size(), 1500u);
+  EXPECT_EQ(idsAt(2500).size(), 2500u);
+  EXPECT_EQ(idsAt(1500), before);
+
+  // All the points of a box on top of them, elsewhere none.
+  filter->RefineRegionOn();
+  filter->SetRefineCenter(1.0, 0.0, 0.0);
+  filter->SetRefineLengths(1.0, 1.0, 1.0);
+  const auto refined = idsAt(1500);
+  EXPECT_GT(refined.size(), 1600u);
+  const std::set<vtkIdType> known(before.begin(), before.end());
+  for (const vtkIdType id : refined)
+  {
+    EXPECT_TRUE(known.count(id) != 0 || (points[id] - Vec3(1, 0, 0)).cwiseAbs().maxCoeff() <= 0.5);
+  }
+  filter->RefineRegionOff();
+  EXPECT_EQ(idsAt(1500), before);
+
+  // Other points, and no state: as if fresh.
+  vtkNew<vtkPolyData> other;
+  fill(other, randomTorus(1.0, 0.4, 8000, 12), VTK_DOUBLE);
+  filter->SetInputData(other);
+  const auto changed = idsAt(1500);
+  filter->KeepStateOff();
+  EXPECT_EQ(idsAt(1500), changed);
 }
 
 } // namespace
