@@ -2,6 +2,7 @@
 #include "core/convolution/BlendedField.h"
 
 #include "core/base/Scratch.h"
+#include "core/convolution/BlendSelector.h"
 
 #include <algorithm>
 #include <array>
@@ -105,237 +106,122 @@ BlendedField::BlendedField(
   }
 }
 
-// Finds which groups blend in a box.
-class BlendedField::Selector
-{
-public:
-  using Groups = std::vector<std::int32_t>;
-
-  Selector(const BlendedField& field, const ElementSelection& all) : field_(field), all_(all)
-  {
-    for (const SegmentElement* segment : all.segments)
-    {
-      segmentGroups_.push_back(field.segmentGroups_[field.whole_.index(segment)]);
-    }
-    for (const TriangleElement* triangle : all.triangles)
-    {
-      triangleGroups_.push_back(field.triangleGroups_[field.whole_.index(triangle)]);
-    }
-    groups_ = segmentGroups_;
-    groups_.insert(groups_.end(), triangleGroups_.begin(), triangleGroups_.end());
-    makeUnique(groups_);
-  }
-
-  std::vector<BlendSelection::Cluster> clusters(const Box3& box)
-  {
-    const std::vector<Groups> sets = this->groupSets();
-    field_.pieces_->select(box, pieces_);
-    for (const SegmentElement* segment : pieces_.segments)
-    {
-      segmentPlaces_.push_back(&field_.places_.segmentPlaces[field_.pieces_->index(segment)]);
-    }
-    for (const TriangleElement* triangle : pieces_.triangles)
-    {
-      trianglePlaces_.push_back(&field_.places_.trianglePlaces[field_.pieces_->index(triangle)]);
-    }
-    std::vector<BlendSelection::Cluster> clusters;
-    for (const Groups& set : sets)
-    {
-      clusters.push_back(this->cluster(set));
-      if (clusters.back().terms.empty() && set == groups_)
-      {
-        return {}; // no sum is larger than that of all
-      }
-    }
-    return clusters;
-  }
-
-private:
-  static void makeUnique(Groups& groups)
-  {
-    std::sort(groups.begin(), groups.end());
-    groups.erase(std::unique(groups.begin(), groups.end()), groups.end());
-  }
-
-  const Groups& neighboursOf(std::int32_t group) const
-  {
-    return field_.places_.neighbours[static_cast<std::size_t>(group)];
-  }
-  bool isPaper() const { return field_.control_.kind == BlendingKind::Paper; }
-
-  // Per candidate i: the groups in reach that its sum may have. As [SUB]: i first.
-  std::vector<Groups> groupSets() const
-  {
-    Groups candidates = groups_;
-    if (!this->isPaper())
-    {
-      for (const std::int32_t group : groups_)
-      {
-        const Groups& others = this->neighboursOf(group);
-        candidates.insert(candidates.end(), others.begin(), others.end());
-      }
-      makeUnique(candidates);
-    }
-    std::vector<Groups> sets;
-    for (const std::int32_t candidate : candidates)
-    {
-      const Groups& others = this->neighboursOf(candidate);
-      Groups& set = sets.emplace_back();
-      for (const std::int32_t group : groups_)
-      {
-        if (group == candidate || std::binary_search(others.begin(), others.end(), group))
-        {
-          set.push_back(group);
-        }
-      }
-      if (this->isPaper())
-      {
-        std::iter_swap(set.begin(), std::find(set.begin(), set.end(), candidate));
-      }
-    }
-    std::sort(sets.begin(), sets.end());
-    sets.erase(std::unique(sets.begin(), sets.end()), sets.end());
-    // Large sets first: they may make the others needless.
-    std::stable_sort(sets.begin(), sets.end(),
-      [](const Groups& a, const Groups& b) { return a.size() > b.size(); });
-    return sets;
-  }
-
-  BlendSelection::Cluster cluster(const Groups& set) const
-  {
-    Groups around = this->isPaper() ? Groups{ set.front() } : set;
-    Groups plain;
-    BlendSelection::Cluster result;
-    std::vector<const BlendPieces::Place*> places;
-    this->collectPieces(around, result.pieces, places);
-    for (const std::int32_t group : set)
-    {
-      BlendSelection::Term term = this->term(group, places);
-      if (this->isPaper() ? group == set.front() : this->countsInFull(term))
-      {
-        plain.push_back(group);
-        continue;
-      }
-      this->collect({ group }, term.own);
-      result.terms.push_back(std::move(term));
-    }
-    std::sort(plain.begin(), plain.end());
-    this->collect(plain, result.plain);
-    if (result.terms.empty())
-    {
-      result.pieces = {};
-    }
-    return result;
-  }
-
-  BlendSelection::Term term(
-    std::int32_t group, const std::vector<const BlendPieces::Place*>& places) const
-  {
-    BlendSelection::Term term;
-    for (const BlendPieces::Place* place : places)
-    {
-      term.distances.push_back(place->distanceTo(group, field_.share_.end()));
-    }
-    const auto [least, largest] = std::minmax_element(term.distances.begin(), term.distances.end());
-    term.span = places.empty() ? 0.0 : *largest - *least;
-    return term;
-  }
-
-  bool countsInFull(const BlendSelection::Term& term) const
-  {
-    return std::all_of(term.distances.begin(), term.distances.end(),
-      [this](double distance) { return distance <= field_.share_.begin(); });
-  }
-
-  void collect(const Groups& groups, ElementSelection& selection) const
-  {
-    const auto wanted = [&](std::int32_t group)
-    { return std::binary_search(groups.begin(), groups.end(), group); };
-    for (std::size_t k = 0; k < segmentGroups_.size(); ++k)
-    {
-      if (wanted(segmentGroups_[k]))
-      {
-        selection.segments.push_back(all_.segments[k]);
-      }
-    }
-    for (std::size_t k = 0; k < triangleGroups_.size(); ++k)
-    {
-      if (wanted(triangleGroups_[k]))
-      {
-        selection.triangles.push_back(all_.triangles[k]);
-      }
-    }
-  }
-
-  void collectPieces(const Groups& groups, ElementSelection& selection,
-    std::vector<const BlendPieces::Place*>& places) const
-  {
-    const auto wanted = [&](const BlendPieces::Place* place)
-    { return std::binary_search(groups.begin(), groups.end(), place->group); };
-    for (std::size_t k = 0; k < segmentPlaces_.size(); ++k)
-    {
-      if (wanted(segmentPlaces_[k]))
-      {
-        selection.segments.push_back(pieces_.segments[k]);
-        places.push_back(segmentPlaces_[k]);
-      }
-    }
-    for (std::size_t k = 0; k < trianglePlaces_.size(); ++k)
-    {
-      if (wanted(trianglePlaces_[k]))
-      {
-        selection.triangles.push_back(pieces_.triangles[k]);
-        places.push_back(trianglePlaces_[k]);
-      }
-    }
-  }
-
-  const BlendedField& field_;
-  const ElementSelection& all_;
-  Groups segmentGroups_; // per element of all_
-  Groups triangleGroups_;
-  Groups groups_; // those in reach
-  ElementSelection pieces_;
-  std::vector<const BlendPieces::Place*> segmentPlaces_; // per piece
-  std::vector<const BlendPieces::Place*> trianglePlaces_;
-};
-
 void BlendedField::select(const Box3& box, BlendSelection& selection) const
 {
   whole_.select(box, selection.all);
   selection.clusters.clear();
   if (pieces_ && !selection.empty())
   {
-    selection.clusters = Selector(*this, selection.all).clusters(box);
+    selection.clusters = blendClusters(
+      { control_, whole_, segmentGroups_, triangleGroups_, *pieces_, places_ }, selection.all, box);
   }
 }
+
+// The sums over the pieces of a cluster at up to kPart points: of their fields, and of these times
+// the distances from the groups of its terms; all with gradients or without. Each piece is
+// integrated once.
+class BlendedField::PlaceSums
+{
+public:
+  PlaceSums(const BlendedField& field, const BlendSelection::Cluster& cluster, PointBatch points,
+    bool withGradient)
+    : kernel_(field.kernel())
+    , kernels_(convolutionKernels(kernel_.kind))
+    , points_(points)
+    , withGradient_(withGradient)
+    , rows_(withGradient ? 4 : 1)
+    , row_(kPart * 4)
+    , sums_(kPart * rows_ * (cluster.terms.size() + 1))
+  {
+    std::fill_n(sums_.data(), sums_.size(), 0.0);
+    std::size_t piece = 0;
+    for (const SegmentElement* segment : cluster.pieces.segments)
+    {
+      this->integrate(segment, kernels_.addSegments, kernels_.addSegmentsWithGradient);
+      this->addRow(cluster, piece++);
+    }
+    for (const TriangleElement* triangle : cluster.pieces.triangles)
+    {
+      this->integrate(triangle, kernels_.addTriangles, kernels_.addTrianglesWithGradient);
+      this->addRow(cluster, piece++);
+    }
+  }
+
+  ///@{
+  /// Sum 0 is that of the fields, sum 1 + t that of term t.
+  double value(std::size_t sum, std::size_t k) const { return this->at(sum, 0)[k]; }
+  Vec3 gradient(std::size_t sum, std::size_t k) const
+  {
+    return { this->at(sum, 1)[k], this->at(sum, 2)[k], this->at(sum, 3)[k] };
+  }
+  ///@}
+
+private:
+  const double* at(std::size_t sum, std::size_t row) const
+  {
+    return sums_.data() + kPart * (rows_ * sum + row);
+  }
+
+  template <class Element, class Add, class AddWithGradient>
+  void integrate(const Element* element, Add add, AddWithGradient addWithGradient)
+  {
+    double* row = row_.data();
+    std::fill_n(row, kPart * rows_, 0.0);
+    if (withGradient_)
+    {
+      addWithGradient(
+        { &element, 1 }, kernel_, points_, row, { row + kPart, row + 2 * kPart, row + 3 * kPart });
+    }
+    else
+    {
+      add({ &element, 1 }, kernel_, points_, row);
+    }
+  }
+
+  void addRow(const BlendSelection::Cluster& cluster, std::size_t piece)
+  {
+    const std::size_t count = kPart * rows_;
+    for (std::size_t sum = 0; sum <= cluster.terms.size(); ++sum)
+    {
+      const double weight = sum == 0 ? 1.0 : cluster.terms[sum - 1].distances[piece];
+      double* to = sums_.data() + count * sum;
+      for (std::size_t k = 0; k < count; ++k)
+      {
+        to[k] += weight * row_[k];
+      }
+    }
+  }
+
+  const ConvolutionKernel& kernel_;
+  const ConvolutionKernels& kernels_;
+  PointBatch points_;
+  bool withGradient_;
+  std::size_t rows_;
+  ScratchArray row_;
+  ScratchArray sums_;
+};
 
 void BlendedField::clusterField(
   const BlendSelection::Cluster& cluster, PointBatch points, double* value) const
 {
-  const std::size_t size = points.size;
-  std::fill_n(value, size, 0.0);
+  std::fill_n(value, points.size, 0.0);
   whole_.addField(cluster.plain, points, value);
-  if (cluster.terms.empty())
+  for (std::size_t begin = 0; begin < points.size && !cluster.terms.empty(); begin += kPart)
   {
-    return;
-  }
-  ScratchArray here(size);
-  std::fill_n(here.data(), size, 0.0);
-  pieces_->addField(cluster.pieces, points, here.data());
-  ScratchArray own(size);
-  ScratchArray moment(size);
-  for (const BlendSelection::Term& term : cluster.terms)
-  {
-    std::fill_n(own.data(), size, 0.0);
-    std::fill_n(moment.data(), size, 0.0);
-    whole_.addField(term.own, points, own.data());
-    pieces_->addField(cluster.pieces, points, moment.data(), term.distances.data());
-    for (std::size_t k = 0; k < size; ++k)
+    const PointBatch part = points.slice(begin, std::min(kPart, points.size - begin));
+    const PlaceSums sums(*this, cluster, part, false);
+    ScratchArray own(part.size);
+    for (std::size_t t = 0; t < cluster.terms.size(); ++t)
     {
-      if (here[k] > 0.0)
+      std::fill_n(own.data(), part.size, 0.0);
+      whole_.addField(cluster.terms[t].own, part, own.data());
+      for (std::size_t k = 0; k < part.size; ++k)
       {
-        value[k] += share_(moment[k] / here[k]) * this->counted(own[k], here[k]);
+        const double here = sums.value(0, k);
+        if (here > 0.0)
+        {
+          value[begin + k] += share_(sums.value(1 + t, k) / here) * this->counted(own[k], here);
+        }
       }
     }
   }
@@ -344,35 +230,32 @@ void BlendedField::clusterField(
 void BlendedField::clusterField(const BlendSelection::Cluster& cluster, PointBatch points,
   double* value, VectorBatch gradient) const
 {
-  const std::size_t size = points.size;
-  clear(size, value, gradient);
+  clear(points.size, value, gradient);
   whole_.addFieldAndGradient(cluster.plain, points, value, gradient);
-  if (cluster.terms.empty())
+  for (std::size_t begin = 0; begin < points.size && !cluster.terms.empty(); begin += kPart)
   {
-    return;
-  }
-  Samples here(size);
-  pieces_->addFieldAndGradient(cluster.pieces, points, here.value(), here.gradient());
-  for (const BlendSelection::Term& term : cluster.terms)
-  {
-    Samples own(size);
-    Samples moment(size);
-    whole_.addFieldAndGradient(term.own, points, own.value(), own.gradient());
-    pieces_->addFieldAndGradient(
-      cluster.pieces, points, moment.value(), moment.gradient(), term.distances.data());
-    for (std::size_t k = 0; k < size; ++k)
+    const PointBatch part = points.slice(begin, std::min(kPart, points.size - begin));
+    const PlaceSums sums(*this, cluster, part, true);
+    for (std::size_t t = 0; t < cluster.terms.size(); ++t)
     {
-      if (!(here.value(k) > 0.0))
+      Samples own(part.size);
+      whole_.addFieldAndGradient(cluster.terms[t].own, part, own.value(), own.gradient());
+      for (std::size_t k = 0; k < part.size; ++k)
       {
-        continue;
+        const double here = sums.value(0, k);
+        if (!(here > 0.0))
+        {
+          continue;
+        }
+        const double distance = sums.value(1 + t, k) / here;
+        const Vec3 steps = (sums.gradient(1 + t, k) - distance * sums.gradient(0, k)) / here;
+        const double counted = this->counted(own.value(k), here);
+        const Vec3 slope = counted < own.value(k) ? sums.gradient(0, k) : own.gradient(k);
+        value[begin + k] += share_(distance) * counted;
+        gradient.set(begin + k,
+          gradient[begin + k] + share_(distance) * slope +
+            counted * share_.slope(distance) * steps);
       }
-      const double distance = moment.value(k) / here.value(k);
-      const Vec3 steps = (moment.gradient(k) - distance * here.gradient(k)) / here.value(k);
-      const double counted = this->counted(own.value(k), here.value(k));
-      const Vec3 slope = counted < own.value(k) ? here.gradient(k) : own.gradient(k);
-      value[k] += share_(distance) * counted;
-      gradient.set(
-        k, gradient[k] + share_(distance) * slope + counted * share_.slope(distance) * steps);
     }
   }
 }
@@ -439,13 +322,18 @@ void BlendedField::addField(const BlendSelection* selection, PointBatch points, 
       });
     return;
   }
-  if (selection->clusters.empty())
+  const bool fades = this->kernel().kind == KernelKind::Cauchy;
+  if (selection->clusters.empty() && !fades)
   {
     whole_.addField(selection->all, points, sum);
     return;
   }
   ScratchArray best(points.size);
   std::fill_n(best.data(), points.size, 0.0);
+  if (selection->clusters.empty())
+  {
+    whole_.addField(selection->all, points, best.data());
+  }
   ScratchArray value(points.size);
   for (const BlendSelection::Cluster& cluster : selection->clusters)
   {
@@ -453,7 +341,10 @@ void BlendedField::addField(const BlendSelection* selection, PointBatch points, 
     std::transform(best.data(), best.data() + points.size, value.data(), best.data(),
       [](double a, double b) { return std::max(a, b); });
   }
-  std::transform(sum, sum + points.size, best.data(), sum, std::plus<>());
+  for (std::size_t k = 0; k < points.size; ++k)
+  {
+    sum[k] += fades ? faded(best[k]) : best[k];
+  }
 }
 
 void BlendedField::addFieldAndGradient(
@@ -474,12 +365,17 @@ void BlendedField::addFieldAndGradient(
       });
     return;
   }
-  if (selection->clusters.empty())
+  const bool fades = this->kernel().kind == KernelKind::Cauchy;
+  if (selection->clusters.empty() && !fades)
   {
     whole_.addFieldAndGradient(selection->all, points, sum, gradientSum);
     return;
   }
   Samples best(points.size);
+  if (selection->clusters.empty())
+  {
+    whole_.addFieldAndGradient(selection->all, points, best.value(), best.gradient());
+  }
   Samples own(points.size);
   for (const BlendSelection::Cluster& cluster : selection->clusters)
   {
@@ -495,8 +391,9 @@ void BlendedField::addFieldAndGradient(
   }
   for (std::size_t k = 0; k < points.size; ++k)
   {
-    sum[k] += best.value(k);
-    gradientSum.set(k, gradientSum[k] + best.gradient(k));
+    const double value = best.value(k);
+    sum[k] += fades ? faded(value) : value;
+    gradientSum.set(k, gradientSum[k] + (fades ? fadedSlope(value) : 1.0) * best.gradient(k));
   }
 }
 
@@ -532,17 +429,18 @@ Interval BlendedField::clusterRange(const BlendSelection::Cluster& cluster, cons
 
 Interval BlendedField::range(const BlendSelection& selection, const Box3& box) const
 {
+  Interval range;
   if (selection.clusters.empty())
   {
-    return whole_.range(selection.all, box);
+    range = whole_.range(selection.all, box);
   }
-  Interval range;
   for (const BlendSelection::Cluster& cluster : selection.clusters)
   {
     const Interval own = this->clusterRange(cluster, box);
     range = { std::max(range.min, own.min), std::max(range.max, own.max) };
   }
-  return range;
+  return this->kernel().kind == KernelKind::Cauchy ? Interval{ faded(range.min), faded(range.max) }
+                                                   : range;
 }
 
 } // namespace hybridtree

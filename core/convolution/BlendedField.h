@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/convolution/BlendPieces.h"
-#include "core/convolution/ConvolutionField.h"
+#include "core/convolution/BlendSelection.h"
 #include "core/convolution/GroupedElements.h"
 
 #include <memory>
@@ -10,30 +10,6 @@
 
 namespace hybridtree
 {
-
-/// What the field in a box is made of: one sum, or the largest of several, each for a set of groups
-/// that blend there.
-struct BlendSelection
-{
-  /// A group whose share varies in the box.
-  struct Term
-  {
-    ElementSelection own;
-    std::vector<double> distances; ///< of the cluster's pieces from the group
-    double span;                   ///< between the largest and the least of them
-  };
-  struct Cluster
-  {
-    ElementSelection plain;  ///< elements that count in full
-    ElementSelection pieces; ///< that say where the point is; empty without terms
-    std::vector<Term> terms;
-  };
-
-  ElementSelection all;          ///< all elements that reach the box
-  std::vector<Cluster> clusters; ///< empty where everything adds up
-
-  bool empty() const { return all.empty(); }
-};
 
 /// The field of a skeleton under blending control: f = max over coarse elements i of G_i, G_i = sum
 /// over j of alpha(D_ij) f_j, f_j being the sum over the children of j ([SUB] 5).
@@ -76,7 +52,7 @@ public:
   Interval range(const BlendSelection& selection, const Box3& box) const;
 
 private:
-  class Selector;
+  class PlaceSums;
 
   template <typename Body>
   void forCompactParts(PointBatch points, Body&& body) const;

@@ -106,13 +106,18 @@ struct CompactTriangleIntegral
   {
   }
 
-  struct Edge
+  struct Edge : TriangleEdge
   {
-    V ex, ey;     // unit, along the edge
-    V distance;   // of the origin, positive inside
-    V start, end; // coordinates of the ends along the edge, from the foot of the origin
-    V inverseLength;
     V low, high; // the part within the disc; equal where there is none
+
+    HWY_INLINE Edge(const TriangleElement& element, const TriangleView& view, std::size_t k, V root)
+      : TriangleEdge(element, view, k)
+    {
+      const V half =
+        hn::Sqrt(hn::Max(hn::Zero(D()), hn::Mul(hn::Sub(root, distance), hn::Add(root, distance))));
+      low = hn::Min(hn::Max(start, hn::Neg(half)), half);
+      high = hn::Min(hn::Max(end, hn::Neg(half)), half);
+    }
   };
 
   struct Result
@@ -129,25 +134,6 @@ struct CompactTriangleIntegral
     V zeroth;   // I_n
     V first;    // integral of l (q - delta^2 - l^2)^n
   };
-
-  static HWY_INLINE Edge makeEdge(const TriangleView& view, std::size_t a, std::size_t b, V root)
-  {
-    Edge edge;
-    const V dx = hn::Sub(view.u[b], view.u[a]);
-    const V dy = hn::Sub(view.v[b], view.v[a]);
-    const V squared = hn::Max(hn::MulAdd(dx, dx, hn::Mul(dy, dy)), set(kSmallestSquare));
-    edge.inverseLength = hn::Div(set(1.0), hn::Sqrt(squared));
-    edge.ex = hn::Mul(dx, edge.inverseLength);
-    edge.ey = hn::Mul(dy, edge.inverseLength);
-    edge.distance = hn::MulSub(edge.ey, view.u[a], hn::Mul(edge.ex, view.v[a]));
-    edge.start = hn::MulAdd(edge.ex, view.u[a], hn::Mul(edge.ey, view.v[a]));
-    edge.end = hn::MulAdd(edge.ex, view.u[b], hn::Mul(edge.ey, view.v[b]));
-    const V half = hn::Sqrt(
-      hn::Max(hn::Zero(D()), hn::Mul(hn::Sub(root, edge.distance), hn::Add(root, edge.distance))));
-    edge.low = hn::Min(hn::Max(edge.start, hn::Neg(half)), half);
-    edge.high = hn::Min(hn::Max(edge.end, hn::Neg(half)), half);
-    return edge;
-  }
 
   HWY_INLINE EdgeSums integrateEdge(const Edge& edge, V q) const
   {
@@ -207,8 +193,8 @@ struct CompactTriangleIntegral
     view.placeCorners(element);
     const V q = hn::Max(zero, view.q);
     const V root = hn::Sqrt(q);
-    const Edge edges[3] = { makeEdge(view, 0, 1, root), makeEdge(view, 1, 2, root),
-      makeEdge(view, 2, 0, root) };
+    const Edge edges[3] = { Edge(element, view, 0, root), Edge(element, view, 1, root),
+      Edge(element, view, 2, root) };
     // Within the disc: the whole triangle around its center, or a part of an edge.
     const V nearest = hn::Min(edges[0].distance, hn::Min(edges[1].distance, edges[2].distance));
     auto reached = hn::Gt(nearest, zero);
@@ -241,15 +227,8 @@ struct CompactTriangleIntegral
       }
       lowerSum =
         hn::Add(lowerSum, hn::MulAdd(edge.distance, sums.lowerSum, hn::Mul(lowerPower, outer)));
-      // A corner that moves takes the points of its edges along, in proportion.
-      const std::size_t next = (k + 1) % 3;
-      const V atEnd = hn::IfThenElseZero(
-        reached, hn::Mul(hn::NegMulAdd(edge.start, sums.zeroth, sums.first), edge.inverseLength));
-      const V atStart = hn::Sub(hn::IfThenElseZero(reached, sums.zeroth), atEnd);
-      slopes->u[k] = hn::MulAdd(edge.ey, atStart, slopes->u[k]);
-      slopes->v[k] = hn::NegMulAdd(edge.ex, atStart, slopes->v[k]);
-      slopes->u[next] = hn::MulAdd(edge.ey, atEnd, slopes->u[next]);
-      slopes->v[next] = hn::NegMulAdd(edge.ex, atEnd, slopes->v[next]);
+      edge.addSlopes(k, hn::IfThenElseZero(reached, sums.zeroth),
+        hn::IfThenElseZero(reached, sums.first), *slopes);
     }
     result.integral =
       hn::IfThenElseZero(reached, hn::Max(zero, hn::Mul(sum, set(0.5 / (exponent + 1)))));
@@ -286,16 +265,6 @@ struct CompactTriangleIntegral
   }
 };
 
-double amplitudeOf(const ConvolutionKernel& kernel, const SegmentElement*)
-{
-  return segmentAmplitude(kernel);
-}
-
-double amplitudeOf(const ConvolutionKernel& kernel, const TriangleElement*)
-{
-  return triangleAmplitude(kernel);
-}
-
 // Calls with the exponent as a constant where it is a common one.
 template <class Element, template <int> class Integral>
 struct CompactSums
@@ -303,33 +272,31 @@ struct CompactSums
   static void add(
     ElementSpan<Element> span, const ConvolutionKernel& kernel, PointBatch points, double* sum)
   {
-    const double amplitude = amplitudeOf(kernel, static_cast<const Element*>(nullptr));
     switch (kernel.exponent)
     {
       case 2:
-        addElements<Integral<2>>(span, kernel, amplitude, points, sum);
+        ElementSums<Element, Integral<2>>::add(span, kernel, points, sum);
         break;
       case 3:
-        addElements<Integral<3>>(span, kernel, amplitude, points, sum);
+        ElementSums<Element, Integral<3>>::add(span, kernel, points, sum);
         break;
       default:
-        addElements<Integral<0>>(span, kernel, amplitude, points, sum);
+        ElementSums<Element, Integral<0>>::add(span, kernel, points, sum);
     }
   }
   static void addWithGradient(ElementSpan<Element> span, const ConvolutionKernel& kernel,
     PointBatch points, double* sum, VectorBatch gradient)
   {
-    const double amplitude = amplitudeOf(kernel, static_cast<const Element*>(nullptr));
     switch (kernel.exponent)
     {
       case 2:
-        addElementsWithGradient<Integral<2>>(span, kernel, amplitude, points, sum, gradient);
+        ElementSums<Element, Integral<2>>::addWithGradient(span, kernel, points, sum, gradient);
         break;
       case 3:
-        addElementsWithGradient<Integral<3>>(span, kernel, amplitude, points, sum, gradient);
+        ElementSums<Element, Integral<3>>::addWithGradient(span, kernel, points, sum, gradient);
         break;
       default:
-        addElementsWithGradient<Integral<0>>(span, kernel, amplitude, points, sum, gradient);
+        ElementSums<Element, Integral<0>>::addWithGradient(span, kernel, points, sum, gradient);
     }
   }
 };
@@ -353,7 +320,7 @@ namespace hybridtree
 
 HWY_EXPORT(compactKernels);
 
-const ConvolutionKernels& convolutionKernels(KernelKind)
+const ConvolutionKernels& compactConvolutionKernels()
 {
   static const ConvolutionKernels* const kernels = HWY_DYNAMIC_DISPATCH(compactKernels)();
   return *kernels;

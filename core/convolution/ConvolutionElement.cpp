@@ -44,6 +44,15 @@ TriangleElement makeTriangleElement(
     element.y[k] = local.y();
     element.inverse[k] = 1.0 / reaches[k];
   }
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    const std::size_t next = (k + 1) % 3;
+    const double dx = element.x[next] - element.x[k];
+    const double dy = element.y[next] - element.y[k];
+    element.inverseLength[k] = 1.0 / std::hypot(dx, dy);
+    element.edgeX[k] = dx * element.inverseLength[k];
+    element.edgeY[k] = dy * element.inverseLength[k];
+  }
   return element;
 }
 

@@ -35,9 +35,11 @@ struct SegmentElement
 
 struct TriangleElement
 {
-  Vec3 origin;                   ///< first corner
-  Mat3 axes;                     ///< orthonormal columns: the way R grows, across, normal
-  std::array<double, 3> x, y;    ///< corners in the plane of the first two axes, counter-clockwise
+  Vec3 origin;                ///< first corner
+  Mat3 axes;                  ///< orthonormal columns: the way R grows, across, normal
+  std::array<double, 3> x, y; ///< corners in the plane of the first two axes, counter-clockwise
+  /// Of the edges from each corner to the next, in that plane: unit, and 1 / length.
+  std::array<double, 3> edgeX, edgeY, inverseLength;
   double originReach;            ///< R at the origin
   double slope;                  ///< >= 0
   std::array<double, 3> inverse; ///< 1/R at the corners

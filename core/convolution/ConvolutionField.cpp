@@ -10,13 +10,14 @@ namespace
 {
 
 template <class Element>
-ElementTree treeOf(const std::vector<Element>& elements)
+ElementTree treeOf(const std::vector<Element>& elements, double fadingDistance)
 {
   std::vector<Box3> boxes;
   boxes.reserve(elements.size());
   for (const Element& element : elements)
   {
-    const Vec3 reach = Vec3::Constant(largestReach(element));
+    const Vec3 reach =
+      Vec3::Constant(fadingDistance > 0.0 ? fadingDistance : largestReach(element));
     const Box3 box = boundsOf(element);
     boxes.emplace_back(Vec3(box.min() - reach), Vec3(box.max() + reach));
   }
@@ -35,6 +36,15 @@ std::vector<Element> inOrder(const std::vector<Element>& elements, const Element
   return ordered;
 }
 
+template <class Element>
+void selectAll(const std::vector<Element>& elements, std::vector<const Element*>& selected)
+{
+  for (const Element& element : elements)
+  {
+    selected.push_back(&element);
+  }
+}
+
 // Around the box.
 struct Ball
 {
@@ -50,28 +60,56 @@ struct Ball
   }
 };
 
-struct Spans
+template <class Element>
+ElementSpan<Element> spanOf(const std::vector<const Element*>& elements)
 {
-  ElementSpan<SegmentElement> segments;
-  ElementSpan<TriangleElement> triangles;
-};
-
-Spans spansOf(const ElementSelection& selection, const double* weights)
-{
-  const std::size_t count = selection.segments.size();
-  return { { selection.segments.data(), count, weights },
-    { selection.triangles.data(), selection.triangles.size(),
-      weights ? weights + count : nullptr } };
+  return { elements.data(), elements.size() };
 }
 
 } // namespace
 
 ConvolutionField::ConvolutionField(const ConvolutionKernel& kernel,
   const std::vector<SegmentElement>& segments, const std::vector<TriangleElement>& triangles)
-  : kernel_(kernel), segmentTree_(treeOf(segments)), triangleTree_(treeOf(triangles))
+  : kernel_(kernel)
+  , fadingDistance_(
+      kernel.kind == KernelKind::Cauchy ? this->fadingDistance(segments, triangles) : 0.0)
+  , segmentTree_(treeOf(segments, fadingDistance_))
+  , triangleTree_(treeOf(triangles, fadingDistance_))
 {
   segments_ = inOrder(segments, segmentTree_);
   triangles_ = inOrder(triangles, triangleTree_);
+}
+
+double ConvolutionField::fadingDistance(
+  const std::vector<SegmentElement>& segments, const std::vector<TriangleElement>& triangles) const
+{
+  const auto mostAt = [&](double distance)
+  {
+    FieldBounds bounds;
+    for (const SegmentElement& segment : segments)
+    {
+      hybridtree::addBounds(segment, kernel_, distance, bounds);
+    }
+    for (const TriangleElement& triangle : triangles)
+    {
+      hybridtree::addBounds(triangle, kernel_, distance, bounds);
+    }
+    return bounds.value;
+  };
+  double distance = 0.0;
+  for (const SegmentElement& segment : segments)
+  {
+    distance = std::max(distance, largestReach(segment));
+  }
+  for (const TriangleElement& triangle : triangles)
+  {
+    distance = std::max(distance, largestReach(triangle));
+  }
+  while (mostAt(distance) > kFadeEnd)
+  {
+    distance *= 1.1;
+  }
+  return distance;
 }
 
 Box3 ConvolutionField::influenceBounds() const
@@ -85,6 +123,15 @@ void ConvolutionField::select(const Box3& box, ElementSelection& selection) cons
   selection.triangles.clear();
   if (box.isEmpty())
   {
+    return;
+  }
+  if (fadingDistance_ > 0.0)
+  {
+    if (box.intersects(this->influenceBounds()))
+    {
+      selectAll(segments_, selection.segments);
+      selectAll(triangles_, selection.triangles);
+    }
     return;
   }
   const Ball ball(box);
@@ -117,21 +164,19 @@ std::size_t ConvolutionField::index(const TriangleElement* triangle) const
 }
 
 void ConvolutionField::addField(
-  const ElementSelection& selection, PointBatch points, double* sum, const double* weights) const
+  const ElementSelection& selection, PointBatch points, double* sum) const
 {
   const ConvolutionKernels& kernels = convolutionKernels(kernel_.kind);
-  const auto [segments, triangles] = spansOf(selection, weights);
-  kernels.addSegments(segments, kernel_, points, sum);
-  kernels.addTriangles(triangles, kernel_, points, sum);
+  kernels.addSegments(spanOf(selection.segments), kernel_, points, sum);
+  kernels.addTriangles(spanOf(selection.triangles), kernel_, points, sum);
 }
 
-void ConvolutionField::addFieldAndGradient(const ElementSelection& selection, PointBatch points,
-  double* sum, VectorBatch gradientSum, const double* weights) const
+void ConvolutionField::addFieldAndGradient(
+  const ElementSelection& selection, PointBatch points, double* sum, VectorBatch gradientSum) const
 {
   const ConvolutionKernels& kernels = convolutionKernels(kernel_.kind);
-  const auto [segments, triangles] = spansOf(selection, weights);
-  kernels.addSegmentsWithGradient(segments, kernel_, points, sum, gradientSum);
-  kernels.addTrianglesWithGradient(triangles, kernel_, points, sum, gradientSum);
+  kernels.addSegmentsWithGradient(spanOf(selection.segments), kernel_, points, sum, gradientSum);
+  kernels.addTrianglesWithGradient(spanOf(selection.triangles), kernel_, points, sum, gradientSum);
 }
 
 void ConvolutionField::addBounds(

@@ -31,10 +31,11 @@ public:
 
   const ConvolutionKernel& kernel() const { return kernel_; }
 
-  /// Closure of where the field is not 0.
+  /// Closure of where the field is not 0; for the Cauchy kernel, where it is not faded to 0.
   Box3 influenceBounds() const;
 
-  /// The elements that reach the box: all of them, and few others. Overwrites `selection`.
+  /// The elements that reach the box: all of them, and few others. Of the Cauchy kernel all or,
+  /// where the sum is faded out, none. Overwrites `selection`.
   void select(const Box3& box, ElementSelection& selection) const;
 
   ///@{
@@ -43,13 +44,9 @@ public:
   std::size_t index(const TriangleElement* triangle) const;
   ///@}
 
-  ///@{
-  /// \param weights null, or by how much each element counts: segments first.
-  void addField(const ElementSelection& selection, PointBatch points, double* sum,
-    const double* weights = nullptr) const;
+  void addField(const ElementSelection& selection, PointBatch points, double* sum) const;
   void addFieldAndGradient(const ElementSelection& selection, PointBatch points, double* sum,
-    VectorBatch gradientSum, const double* weights = nullptr) const;
-  ///@}
+    VectorBatch gradientSum) const;
 
   /// Adds bounds that hold in the whole box.
   void addBounds(const ElementSelection& selection, const Box3& box, FieldBounds& bounds) const;
@@ -58,7 +55,12 @@ public:
   Interval range(const ElementSelection& selection, const Box3& box) const;
 
 private:
+  // How far from the elements a field of a kernel without end is above kFadeEnd.
+  double fadingDistance(const std::vector<SegmentElement>& segments,
+    const std::vector<TriangleElement>& triangles) const;
+
   ConvolutionKernel kernel_;
+  double fadingDistance_;                ///< 0 for a compact kernel
   std::vector<SegmentElement> segments_; ///< in the order of their tree
   std::vector<TriangleElement> triangles_;
   ElementTree segmentTree_;

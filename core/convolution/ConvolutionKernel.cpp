@@ -34,6 +34,18 @@ void validate(const ConvolutionKernel& kernel)
   }
 }
 
+double faded(double field)
+{
+  const double x = field / kFadeEnd - 1.0;
+  return x <= 0.0 ? 0.0 : x >= 1.0 ? field : kFadeEnd * x * x * (5.0 - 3.0 * x);
+}
+
+double fadedSlope(double field)
+{
+  const double x = field / kFadeEnd - 1.0;
+  return x <= 0.0 ? 0.0 : x >= 1.0 ? 1.0 : x * (10.0 - 9.0 * x);
+}
+
 double bellIntegral(int exponent)
 {
   double integral = 2.0;

@@ -33,6 +33,14 @@ double segmentAmplitude(const ConvolutionKernel& kernel);
 double triangleAmplitude(const ConvolutionKernel& kernel);
 ///@}
 
+/// The Cauchy kernel never ends, the field of a leaf must: sums below kFadeEnd are 0, those above
+/// twice that stay, between them is a cubic with equal slopes at both ends.
+///@{
+inline constexpr double kFadeEnd = 0.00025;
+double faded(double field);
+double fadedSlope(double field); ///< derivative of faded()
+///@}
+
 /// B_n.
 double bellIntegral(int exponent);
 

@@ -166,6 +166,52 @@ struct TriangleSlopes
   std::array<V, 3> u, v;
 };
 
+// The edge from corner k to the next, in the plane of (u, v).
+struct TriangleEdge
+{
+  V ex, ey;     // unit, along the edge
+  V distance;   // of the origin, positive inside
+  V start, end; // coordinates of the ends along the edge, from the foot of the origin
+  V inverseLength;
+
+  HWY_INLINE TriangleEdge(const TriangleElement& element, const TriangleView& view, std::size_t k)
+  {
+    const std::size_t next = (k + 1) % 3;
+    if (element.slope == 0.0)
+    {
+      // The triangle itself, in units of R.
+      inverseLength = set(element.originReach * element.inverseLength[k]);
+      ex = set(element.edgeX[k]);
+      ey = set(element.edgeY[k]);
+    }
+    else
+    {
+      const V dx = hn::Sub(view.u[next], view.u[k]);
+      const V dy = hn::Sub(view.v[next], view.v[k]);
+      const V squared = hn::Max(hn::MulAdd(dx, dx, hn::Mul(dy, dy)), set(kSmallestSquare));
+      inverseLength = hn::Div(set(1.0), hn::Sqrt(squared));
+      ex = hn::Mul(dx, inverseLength);
+      ey = hn::Mul(dy, inverseLength);
+    }
+    distance = hn::MulSub(ey, view.u[k], hn::Mul(ex, view.v[k]));
+    start = hn::MulAdd(ex, view.u[k], hn::Mul(ey, view.v[k]));
+    end = hn::MulAdd(ex, view.u[next], hn::Mul(ey, view.v[next]));
+  }
+
+  // A corner that moves takes the points of its edges along, in proportion: from the integrals of
+  // the kernel, and of l times the kernel, along the edge.
+  HWY_INLINE void addSlopes(std::size_t k, V zeroth, V first, TriangleSlopes& slopes) const
+  {
+    const std::size_t next = (k + 1) % 3;
+    const V atEnd = hn::Mul(hn::NegMulAdd(start, zeroth, first), inverseLength);
+    const V atStart = hn::Sub(zeroth, atEnd);
+    slopes.u[k] = hn::MulAdd(ey, atStart, slopes.u[k]);
+    slopes.v[k] = hn::NegMulAdd(ex, atStart, slopes.v[k]);
+    slopes.u[next] = hn::MulAdd(ey, atEnd, slopes.u[next]);
+    slopes.v[next] = hn::NegMulAdd(ex, atEnd, slopes.v[next]);
+  }
+};
+
 HWY_INLINE void addTriangleGradient(const TriangleElement& element, const TriangleView& view,
   const TriangleSlopes& by, V& gx, V& gy, V& gz)
 {
@@ -235,9 +281,7 @@ struct AddElementsBody
     V value = hn::Zero(d);
     for (std::size_t k = 0; k < span.count; ++k)
     {
-      V part = hn::Zero(d);
-      integral.add(*span.elements[k], hn::LoadU(d, x), hn::LoadU(d, y), hn::LoadU(d, z), part);
-      value = span.weights ? hn::MulAdd(set(span.weights[k]), part, value) : hn::Add(value, part);
+      integral.add(*span.elements[k], hn::LoadU(d, x), hn::LoadU(d, y), hn::LoadU(d, z), value);
     }
     hn::StoreU(hn::MulAdd(set(amplitude), value, hn::LoadU(d, out[0])), d, out[0]);
   }
@@ -257,14 +301,8 @@ struct AddElementsWithGradientBody
     V sum[4] = { hn::Zero(d), hn::Zero(d), hn::Zero(d), hn::Zero(d) };
     for (std::size_t k = 0; k < span.count; ++k)
     {
-      V part[4] = { hn::Zero(d), hn::Zero(d), hn::Zero(d), hn::Zero(d) };
       integral.addWithGradient(*span.elements[k], hn::LoadU(d, x), hn::LoadU(d, y), hn::LoadU(d, z),
-        part[0], part[1], part[2], part[3]);
-      const V weight = set(span.weights ? span.weights[k] : 1.0);
-      for (std::size_t i = 0; i < 4; ++i)
-      {
-        sum[i] = hn::MulAdd(weight, part[i], sum[i]);
-      }
+        sum[0], sum[1], sum[2], sum[3]);
     }
     for (std::size_t k = 0; k < 4; ++k)
     {
@@ -273,21 +311,35 @@ struct AddElementsWithGradientBody
   }
 };
 
-template <class Integral, class Element>
-void addElements(ElementSpan<Element> span, const ConvolutionKernel& kernel, double amplitude,
-  PointBatch points, double* sum)
+inline double amplitudeOf(const ConvolutionKernel& kernel, const SegmentElement*)
 {
-  forEachVector<1>(
-    points, { sum }, AddElementsBody<Element, Integral>{ span, Integral(kernel), amplitude });
+  return segmentAmplitude(kernel);
 }
 
-template <class Integral, class Element>
-void addElementsWithGradient(ElementSpan<Element> span, const ConvolutionKernel& kernel,
-  double amplitude, PointBatch points, double* sum, VectorBatch gradient)
+inline double amplitudeOf(const ConvolutionKernel& kernel, const TriangleElement*)
 {
-  forEachVector<4>(points, { sum, gradient.x, gradient.y, gradient.z },
-    AddElementsWithGradientBody<Element, Integral>{ span, Integral(kernel), amplitude });
+  return triangleAmplitude(kernel);
 }
+
+// Two of the functions of a ConvolutionKernels.
+template <class Element, class Integral>
+struct ElementSums
+{
+  static void add(
+    ElementSpan<Element> span, const ConvolutionKernel& kernel, PointBatch points, double* sum)
+  {
+    const double amplitude = amplitudeOf(kernel, static_cast<const Element*>(nullptr));
+    forEachVector<1>(
+      points, { sum }, AddElementsBody<Element, Integral>{ span, Integral(kernel), amplitude });
+  }
+  static void addWithGradient(ElementSpan<Element> span, const ConvolutionKernel& kernel,
+    PointBatch points, double* sum, VectorBatch gradient)
+  {
+    const double amplitude = amplitudeOf(kernel, static_cast<const Element*>(nullptr));
+    forEachVector<4>(points, { sum, gradient.x, gradient.y, gradient.z },
+      AddElementsWithGradientBody<Element, Integral>{ span, Integral(kernel), amplitude });
+  }
+};
 
 } // namespace HWY_NAMESPACE
 } // namespace hybridtree

@@ -9,14 +9,12 @@
 namespace hybridtree
 {
 
-/// Elements by pointers: those that reach a place, wherever they are stored; each counts by its
-/// weight where there are weights.
+/// Elements by pointers: those that reach a place, wherever they are stored.
 template <class Element>
 struct ElementSpan
 {
   const Element* const* elements = nullptr;
   std::size_t count = 0;
-  const double* weights = nullptr;
 };
 
 /// Batched sums of closed-form integrals over elements. A value depends on its point alone, not on
@@ -36,5 +34,7 @@ struct ConvolutionKernels
 
 /// Those of the kernel for the widest vector instructions of this processor.
 const ConvolutionKernels& convolutionKernels(KernelKind kind);
+const ConvolutionKernels& compactConvolutionKernels();
+const ConvolutionKernels& cauchyConvolutionKernels();
 
 } // namespace hybridtree

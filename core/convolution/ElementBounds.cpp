@@ -65,6 +65,30 @@ void add(const Extent& extent, const KernelBounds& kernel, FieldBounds& bounds)
         m * (2.0 * kernel.slope + kernel.value * m / (1.0 - m)) * extent.tail * inverse);
 }
 
+// The kernel 1 / u^2, u = 1 + 4 t^2, from t = `nearest` on; sqrt(E) / R <= 1 + slope t.
+void addCauchy(const Extent& extent, double nearest, FieldBounds& bounds)
+{
+  const auto u = [](double t) { return 1.0 + 4.0 * t * t; };
+  // Largest values of t / u^2, 16 t / u^3 and 16 t^2 / u^3.
+  const double far = std::max(nearest, std::sqrt(1.0 / 12.0));
+  const double steep = std::max(nearest, std::sqrt(1.0 / 20.0));
+  const double farSteep = std::max(nearest, std::sqrt(1.0 / 8.0));
+  const double value = 1.0 / (u(nearest) * u(nearest));
+  const double farValue = far / (u(far) * u(far));
+  const double slope = 16.0 * steep / std::pow(u(steep), 3);
+  const double farSlope = 16.0 * farSteep * farSteep / std::pow(u(farSteep), 3);
+  const double m = extent.slope;
+  const double inverse = 1.0 / extent.smallest;
+  bounds.value += extent.amplitude * std::min(extent.full, extent.measure * (value + m * farValue));
+  // |d/dt 1 / u^2| <= 4 / u^2, and second derivatives are below 80 / u^3.
+  bounds.slope += extent.amplitude *
+    (inverse * std::min(4.0 * extent.full, extent.measure * (slope + m * farSlope)) +
+      m * value * extent.tail);
+  bounds.curvature += m > 0.0 ? std::numeric_limits<double>::infinity()
+                              : extent.amplitude * inverse * inverse * 80.0 / u(nearest) *
+      std::min(extent.full, extent.measure * value);
+}
+
 } // namespace
 
 double largestReach(const SegmentElement& element)
@@ -116,6 +140,16 @@ void addBounds(const SegmentElement& element, const ConvolutionKernel& kernel, d
   FieldBounds& bounds)
 {
   const double nearest = distance / largestReach(element);
+  if (kernel.kind == KernelKind::Cauchy)
+  {
+    const double inverse = std::max(element.inverseStart, element.inverseEnd);
+    addCauchy(
+      { segmentAmplitude(kernel), std::abs(element.slope), 1.0 / inverse, element.length * inverse,
+        element.length * element.inverseStart * element.inverseEnd,
+        0.25 * kPi * std::pow(1.0 + 4.0 * nearest * nearest, -1.5) },
+      nearest, bounds);
+    return;
+  }
   if (nearest >= 1.0)
   {
     return;
@@ -137,15 +171,22 @@ void addBounds(const TriangleElement& element, const ConvolutionKernel& kernel, 
 {
   const double farthest = largestReach(element);
   const double nearest = distance / farthest;
+  const double inverse = *std::max_element(element.inverse.begin(), element.inverse.end());
+  const double area = 0.5 *
+    ((element.x[1] - element.x[0]) * (element.y[2] - element.y[0]) -
+      (element.x[2] - element.x[0]) * (element.y[1] - element.y[0]));
+  if (kernel.kind == KernelKind::Cauchy)
+  {
+    addCauchy({ triangleAmplitude(kernel), element.slope, 1.0 / inverse, area * inverse * inverse,
+                area * inverse * inverse * inverse, 0.25 * kPi / (1.0 + 4.0 * nearest * nearest) },
+      nearest, bounds);
+    return;
+  }
   if (nearest >= 1.0)
   {
     return;
   }
   const KernelBounds most(kernel.exponent, nearest);
-  const double inverse = *std::max_element(element.inverse.begin(), element.inverse.end());
-  const double area = 0.5 *
-    ((element.x[1] - element.x[0]) * (element.y[2] - element.y[0]) -
-      (element.x[2] - element.x[0]) * (element.y[1] - element.y[0]));
   const double disc = kPi * most.g;
   const double measure = std::min(disc, (1.0 + element.slope) * area * inverse * inverse);
   const double full = disc * most.value / (kernel.exponent + 1);

@@ -26,7 +26,7 @@ struct FieldBounds
 };
 
 ///@{
-/// Adds the bounds of one element at all points at least `distance` away from it. Compact kernels.
+/// Adds the bounds of one element at all points at least `distance` away from it.
 void addBounds(const SegmentElement& element, const ConvolutionKernel& kernel, double distance,
   FieldBounds& bounds);
 void addBounds(const TriangleElement& element, const ConvolutionKernel& kernel, double distance,

@@ -20,7 +20,7 @@ namespace
 
 constexpr EnumNames<SubdivisionScheme, 2> kSchemes{ "Scheme", "scheme",
   { "approximating", "interpolating" } };
-constexpr EnumNames<KernelKind, 1> kKernels{ "Kernel", "kernel", { "compact" } };
+constexpr EnumNames<KernelKind, 2> kKernels{ "Kernel", "kernel", { "compact", "cauchy" } };
 constexpr EnumNames<BlendingKind, 3> kBlendings{ "Blending", "blending",
   { "all", "neighbours", "paper" } };
 constexpr EnumNames<SkeletonRadius, 2> kRadii{ "Radius", "radius", { "linear", "constant" } };

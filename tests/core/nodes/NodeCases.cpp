@@ -353,6 +353,11 @@ void addSkeletons(std::vector<NodeCase>& cases)
   options.blending.kind = BlendingKind::Neighbours;
   options.kernel.exponent = 3;
   cases.push_back({ "SkeletonOfNeighbours", makeSubdivisionSkeleton(folded(), options) });
+  options.kernel.kind = KernelKind::Cauchy;
+  cases.push_back({ "SkeletonOfCauchyNeighbours", makeSubdivisionSkeleton(branches(), options) });
+  options.blending.kind = BlendingKind::All;
+  cases.push_back({ "SkeletonOfCauchyKernels", makeSubdivisionSkeleton(sheet(), options) });
+  options.kernel.kind = KernelKind::Compact;
   options.blending.kind = BlendingKind::Paper;
   cases.push_back({ "SkeletonAsInThePaper", makeSubdivisionSkeleton(branches(), options) });
   options.blending.kind = BlendingKind::All;
