@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/nodes/SubdivisionSkeletonMesh.h"
 
+#include "core/base/Parallel.h"
+#include "core/geometry/PointTriangle.h"
 #include "core/nodes/LatticeMesh.h"
 #include "core/subdivision/SkeletonMesh.h"
 
+#include <algorithm>
 #include <functional>
+#include <limits>
 
 namespace hybridtree
 {
@@ -89,6 +93,93 @@ void applyMap(const Affine3& map, TriangleMesh& mesh)
   }
 }
 
+/// Which piece each refined element is a part of, and how far points are from it.
+class PieceFinder
+{
+public:
+  explicit PieceFinder(const SubdivisionSkeleton& leaf)
+    : leaf_(leaf), inverse_(leaf.map() ? leaf.map()->inverse() : Affine3::Identity())
+  {
+    const SkeletonGraph& coarse = leaf.coarse();
+    const SkeletonPieces pieces = findPieces(coarse, SkeletonTopology(coarse));
+    segmentPieces_.resize(coarse.segments.size());
+    trianglePieces_.resize(coarse.triangles.size());
+    std::int32_t number = 0;
+    for (const CurvePiece& curve : pieces.curves)
+    {
+      for (const std::int32_t s : curve.segments)
+      {
+        segmentPieces_[std::size_t(s)] = number;
+      }
+      ++number;
+    }
+    for (const SurfacePiece& surface : pieces.surfaces)
+    {
+      for (const std::int32_t t : surface.triangles)
+      {
+        trianglePieces_[std::size_t(t)] = number;
+      }
+      ++number;
+    }
+  }
+
+  /// \param points of the node's space, in a small box.
+  void find(const std::vector<Vec3>& points, std::int32_t* pieces) const
+  {
+    Box3 box;
+    for (const Vec3& point : points)
+    {
+      box.extend(point);
+    }
+    const SubdivisionSkeleton::Reaching reaching = leaf_.elementsReaching(box);
+    for (std::size_t k = 0; k < points.size(); ++k)
+    {
+      const Vec3 p = inverse_ * points[k];
+      double least = std::numeric_limits<double>::infinity();
+      pieces[k] = -1;
+      const auto offer = [&](double distance, std::int32_t piece)
+      {
+        pieces[k] = distance < least ? piece : pieces[k];
+        least = std::min(least, distance);
+      };
+      for (const std::size_t s : reaching.segments)
+      {
+        offer(distanceToSegment(p, leaf_.refined().segments[s]),
+          segmentPieces_[std::size_t(leaf_.refined().segmentParents[s])]);
+      }
+      for (const std::size_t t : reaching.triangles)
+      {
+        offer(distanceToTriangle(p, leaf_.refined().triangles[t]),
+          trianglePieces_[std::size_t(leaf_.refined().triangleParents[t])]);
+      }
+    }
+  }
+
+private:
+  const Vec3& at(std::int32_t point) const { return leaf_.refined().points[std::size_t(point)]; }
+  double radius(std::int32_t point) const { return leaf_.refined().radii[std::size_t(point)]; }
+
+  double distanceToSegment(const Vec3& p, const SkeletonSegment& ends) const
+  {
+    const Vec3 way = at(ends[1]) - at(ends[0]);
+    const double t = std::clamp((p - at(ends[0])).dot(way) / way.squaredNorm(), 0.0, 1.0);
+    const double here = (1.0 - t) * radius(ends[0]) + t * radius(ends[1]);
+    return (p - at(ends[0]) - t * way).norm() / here;
+  }
+
+  double distanceToTriangle(const Vec3& p, const Triangle& corners) const
+  {
+    const Vec3 nearest = nearestOnTriangle(p, at(corners[0]), at(corners[1]), at(corners[2])).point;
+    const double mean = (radius(corners[0]) + radius(corners[1]) + radius(corners[2])) / 3.0;
+    return (p - nearest).norm() / mean;
+  }
+
+  const SubdivisionSkeleton& leaf_;
+  Affine3 inverse_;
+  std::vector<std::int32_t> segmentPieces_; // per coarse segment
+  std::vector<std::int32_t> trianglePieces_;
+};
+
 } // namespace
 
 TriangleMesh subdivisionSkeletonMesh(const SubdivisionSkeleton& leaf, double edgeLength,
@@ -130,6 +221,30 @@ TriangleMesh subdivisionSkeletonPreview(const SubdivisionSkeleton& leaf, const P
   PieceMeshOptions options;
   options.refinement = leaf.options().refinement;
   return joinPieces(pieceMeshes(fieldOf(leaf), options, &sharedCache(), progress));
+}
+
+std::vector<std::int32_t> skeletonPieceNumbers(
+  const SubdivisionSkeleton& leaf, const TriangleMesh& mesh)
+{
+  constexpr std::size_t kTogether = 32; // neighbours in the list are neighbours in space
+  const PieceFinder finder(leaf);
+  std::vector<std::int32_t> result(mesh.triangles.size());
+  parallelFor(result.size(), kTogether,
+    [&](std::size_t begin, std::size_t end)
+    {
+      std::vector<Vec3> centers;
+      for (std::size_t first = begin; first < end; first += kTogether)
+      {
+        centers.clear();
+        for (std::size_t t = first; t < std::min(first + kTogether, end); ++t)
+        {
+          const auto& [a, b, c] = mesh.triangles[t];
+          centers.push_back((mesh.points[a] + mesh.points[b] + mesh.points[c]) / 3.0);
+        }
+        finder.find(centers, result.data() + first);
+      }
+    });
+  return result;
 }
 
 } // namespace hybridtree
