@@ -17,9 +17,9 @@ namespace hybridtree
 namespace
 {
 
-// Peak of the whole process on 200,000 points of a torus. Points that fill a volume have more
-// tetrahedra, and take more.
-constexpr double kBytesPerPoint = 3200.0;
+// Peak of the whole process on 10^5 to 10^6 points of a bumpy sphere, and a third more: points that
+// fill a volume have more tetrahedra.
+constexpr double kBytesPerPoint = 1300.0;
 // Tetrahedra of at least this size are told apart by the watershed; smaller ones are left to the
 // flow. Low, since the watershed weighs both sides and the flow only knows one.
 constexpr double kWide = 1.0;

@@ -57,7 +57,7 @@ struct ReconstructedSurface
 /// apart, may be lost.
 ///
 /// \param points in any order; coincident points count once. Cost O(n log n) for points on a
-/// surface, about 3 KB of memory a point.
+/// surface, about 1 KB of memory a point.
 /// \throws InvalidGeometry for points that are not finite, fewer than four different ones, or all
 /// in one plane. \throws InvalidParameter. \throws TooLarge before it starts. \throws Cancelled.
 ReconstructedSurface reconstruct(const std::vector<Vec3>& points,

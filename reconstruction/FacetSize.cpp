@@ -15,57 +15,70 @@ namespace
 
 constexpr std::size_t kGrain = 4096;
 
+constexpr int kMost = 6;
+
+struct Neighbors
+{
+  std::array<std::int32_t, kMost> vertices;
+  int count = 0;
+  const std::int32_t* begin() const { return vertices.data(); }
+  const std::int32_t* end() const { return vertices.data() + count; }
+};
+
 // The nearest Delaunay neighbours of a point, nearest first.
 class Nearest
 {
 public:
   void find(const Tetrahedralization& tetrahedra, std::int32_t vertex)
   {
-    count_ = 0;
+    found_.count = 0;
+    recent_.fill(-1);
     const auto& points = tetrahedra.points();
     for (const std::int32_t cell : tetrahedra.star(vertex))
     {
       for (const std::int32_t other : tetrahedra.cell(cell))
       {
-        if (other != vertex && other != Tetrahedralization::kInfinite)
+        std::int32_t& recent = recent_[static_cast<std::uint32_t>(other) % kRecent];
+        if (other != vertex && other != recent && other != Tetrahedralization::kInfinite)
         {
+          recent = other;
           this->offer((points[other] - points[vertex]).squaredNorm(), other);
         }
       }
     }
   }
 
-  bool empty() const { return count_ == 0; }
-  double farthest() const { return std::sqrt(squared_[count_ - 1]); }
-  const std::int32_t* begin() const { return vertices_.data(); }
-  const std::int32_t* end() const { return vertices_.data() + count_; }
+  bool empty() const { return found_.count == 0; }
+  double farthest() const { return std::sqrt(squared_[found_.count - 1]); }
+  const Neighbors& found() const { return found_; }
 
 private:
-  // A neighbour is offered once for each cell that it shares: most are too far, or known.
+  // Some are offered more than once.
   void offer(double squared, std::int32_t vertex)
   {
-    if (count_ == kMost && squared >= squared_[kMost - 1])
+    if (found_.count == kMost && squared >= squared_[kMost - 1])
     {
       return;
     }
-    if (std::find(this->begin(), this->end(), vertex) != this->end())
+    if (std::find(found_.begin(), found_.end(), vertex) != found_.end())
     {
       return;
     }
-    int at = count_ < kMost ? count_++ : kMost - 1;
+    int at = found_.count < kMost ? found_.count++ : kMost - 1;
     for (; at > 0 && squared_[at - 1] > squared; --at)
     {
       squared_[at] = squared_[at - 1];
-      vertices_[at] = vertices_[at - 1];
+      found_.vertices[at] = found_.vertices[at - 1];
     }
     squared_[at] = squared;
-    vertices_[at] = vertex;
+    found_.vertices[at] = vertex;
   }
 
-  static constexpr int kMost = 6;
+  // A neighbour is met once for each cell that it shares, five times on average.
+  static constexpr std::size_t kRecent = 64;
+  std::array<std::int32_t, kRecent> recent_; // met, by their last bits
   std::array<double, kMost> squared_;
-  std::array<std::int32_t, kMost> vertices_;
-  int count_ = 0;
+  Neighbors found_;
 };
 
 double squaredEdge(const std::vector<Vec3>& points, std::int32_t a, std::int32_t b)
@@ -86,17 +99,19 @@ void FacetSize::findSpacing(const Progress& progress)
 {
   const std::size_t count = tetrahedra_.points().size();
   std::vector<double> sixth(count, std::numeric_limits<double>::infinity());
-  std::vector<Nearest> nearest(count);
+  std::vector<Neighbors> nearest(count);
   parallelFor(count, kGrain,
     [&](std::size_t begin, std::size_t end)
     {
       progress.check();
+      Nearest around;
       for (std::size_t vertex = begin; vertex < end; ++vertex)
       {
-        nearest[vertex].find(tetrahedra_, static_cast<std::int32_t>(vertex));
-        if (!nearest[vertex].empty())
+        around.find(tetrahedra_, static_cast<std::int32_t>(vertex));
+        nearest[vertex] = around.found();
+        if (!around.empty())
         {
-          sixth[vertex] = nearest[vertex].farthest();
+          sixth[vertex] = around.farthest();
         }
       }
     });
@@ -107,7 +122,7 @@ void FacetSize::findSpacing(const Progress& progress)
       progress.check();
       for (std::size_t vertex = begin; vertex < end; ++vertex)
       {
-        const Nearest& around = nearest[vertex];
+        const Neighbors& around = nearest[vertex];
         double sum = sixth[vertex];
         for (const std::int32_t other : around)
         {

@@ -88,8 +88,9 @@ void Front::passEmptySpace(const Progress& progress)
     for (int facet = 0; facet < 4; ++facet)
     {
       const std::int32_t beyond = tetrahedra_.neighbor(passed[k], facet);
+      const int back = tetrahedra_.mirror(passed[k], facet);
       if (this->isInside(beyond) && regions_[beyond] == Region::Outside &&
-        sizes_.certainOfFacet(beyond, tetrahedra_.mirror(passed[k], facet)) >= kEmpty)
+        sizes_.ofFacet(beyond, back) >= kEmpty && sizes_.certainOfFacet(beyond, back) >= kEmpty)
       {
         inside_[beyond] = 0;
         passed.push_back(beyond);
@@ -148,7 +149,8 @@ bool Front::mayPass(std::int32_t halfFacet)
     return true;
   }
   this->hold(halfFacet, blocker);
-  if (regions_[cell] == Region::Outside)
+  // ofFacet is no less, and cheaper.
+  if (regions_[cell] == Region::Outside && sizes_.ofFacet(cell, halfFacet & 3) > kMembrane)
   {
     const double size = sizes_.certainOfFacet(cell, halfFacet & 3);
     if (size > kMembrane)

@@ -155,18 +155,6 @@ Tetrahedralization::Star Tetrahedralization::star(std::int32_t vertex) const
   return { starCells_.data() + starOffset_[vertex], starCells_.data() + starOffset_[vertex + 1] };
 }
 
-int Tetrahedralization::indexOf(std::int32_t cell, std::int32_t vertex) const
-{
-  for (int i = 0; i < 4; ++i)
-  {
-    if (cells_[cell][i] == vertex)
-    {
-      return i;
-    }
-  }
-  return -1;
-}
-
 bool Tetrahedralization::isOrientedGabriel(std::int32_t cell, int facet) const
 {
   const auto corner = this->facet(cell, facet);

@@ -44,7 +44,11 @@ public:
   /// The cell of the Delaunay tetrahedralization that a cell is a copy of.
   std::int32_t source(std::int32_t cell) const { return source_[cell]; }
   /// Where in the cell a vertex is; -1 if nowhere.
-  int indexOf(std::int32_t cell, std::int32_t vertex) const;
+  int indexOf(std::int32_t cell, std::int32_t vertex) const
+  {
+    const Cell& v = cells_[cell];
+    return v[0] == vertex ? 0 : v[1] == vertex ? 1 : v[2] == vertex ? 2 : v[3] == vertex ? 3 : -1;
+  }
 
   /// Corners of a facet of a finite cell, counter-clockwise seen from outside of the cell.
   std::array<std::int32_t, 3> facet(std::int32_t cell, int facet) const
