@@ -13,7 +13,7 @@ namespace
 {
 
 constexpr double kLongest = 4.0 / 3.0; // edge, in cells
-constexpr double kDust = 1e-3;         // volume per area of a part that is none, in cells
+constexpr double kDust = 0.02;         // volume per area of a part that is none, in cells
 constexpr double kMargin = 0.25;       // around triangles, in cells: more than pieces differ by
 
 /// Which part of which piece is in a cell.
@@ -27,6 +27,31 @@ class Marker
 {
 public:
   explicit Marker(const CellGrid& grid) : grid_(grid) {}
+
+  /// Of bodies that no piece has, because the sheet in them is hardly inside: one cell of the
+  /// surface, found from a point inside.
+  void addSeeds(const std::vector<Vec3>& inside, const FieldSource& field)
+  {
+    constexpr int kMaxSteps = 1000;
+    std::unordered_set<Index3, Index3Hash> tried;
+    for (const Vec3& point : inside)
+    {
+      Index3 cell = grid_.cellAt(point);
+      for (int step = 0; step < kMaxSteps && tried.insert(cell).second; ++step, ++cell[0])
+      {
+        if (owners_.count(cell) != 0 || cells_.contains(cell))
+        {
+          break;
+        }
+        sampleCorners({ cell }, field);
+        if (isCrossed(cell))
+        {
+          cells_.insert(cell);
+          break;
+        }
+      }
+    }
+  }
 
   CellSet take(const FieldSource& field)
   {
@@ -169,6 +194,27 @@ private:
   std::unordered_map<Index3, bool, Index3Hash> inside_; // sides of corners
 };
 
+/// Centers of the skeleton's triangles that are inside.
+std::vector<Vec3> insideOfSheets(const SkeletonField& skeleton)
+{
+  std::vector<Vec3> centers;
+  for (const auto& [a, b, c] : skeleton.refined.triangles)
+  {
+    const std::vector<Vec3>& points = skeleton.refined.points;
+    centers.push_back((points[a] + points[b] + points[c]) / 3.0);
+  }
+  const std::vector<double> values = fieldAt(skeleton.field, centers);
+  std::vector<Vec3> inside;
+  for (std::size_t k = 0; k < centers.size(); ++k)
+  {
+    if (values[k] > kThreshold)
+    {
+      inside.push_back(centers[k]);
+    }
+  }
+  return inside;
+}
+
 MeshPtr withoutExtras(const PieceMesh& piece)
 {
   auto mesh = std::make_shared<TriangleMesh>();
@@ -180,14 +226,16 @@ MeshPtr withoutExtras(const PieceMesh& piece)
 
 } // namespace
 
-CellSet cellsWherePiecesMeet(const std::vector<PieceMeshPtr>& pieces, const FieldSource& field,
+CellSet cellsWherePiecesMeet(const std::vector<PieceMeshPtr>& pieces, const SkeletonField& skeleton,
   double refinement, const CellGrid& grid)
 {
+  const FieldSource& field = skeleton.field;
   Marker marker(grid);
   for (std::size_t k = 0; k < pieces.size(); ++k)
   {
     marker.addPiece(k, *pieces[k], field, 2.0 * refinement * kThreshold);
   }
+  marker.addSeeds(insideOfSheets(skeleton), field);
   return marker.take(field);
 }
 
@@ -202,7 +250,7 @@ std::optional<StitchedMesh> skeletonMesh(const SkeletonField& skeleton,
   StitchOptions stitching;
   stitching.grid = CellGrid::ofLevel(options.edgeLength, 1);
   stitching.maxBytes = options.maxBytes;
-  CellSet cells = cellsWherePiecesMeet(pieces, skeleton.field, options.refinement, stitching.grid);
+  CellSet cells = cellsWherePiecesMeet(pieces, skeleton, options.refinement, stitching.grid);
   std::vector<KeptPart> parts;
   for (const PieceMeshPtr& piece : pieces)
   {

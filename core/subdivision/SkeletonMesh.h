@@ -33,7 +33,7 @@ std::optional<StitchedMesh> skeletonMesh(const SkeletonField& skeleton,
   const Progress& progress = Progress::none());
 
 /// Cells in which the surface is not that of one piece alone: see skeletonMesh(). Sorted.
-CellSet cellsWherePiecesMeet(const std::vector<PieceMeshPtr>& pieces, const FieldSource& field,
+CellSet cellsWherePiecesMeet(const std::vector<PieceMeshPtr>& pieces, const SkeletonField& skeleton,
   double refinement, const CellGrid& grid);
 
 } // namespace hybridtree

@@ -14,7 +14,7 @@ namespace
 constexpr double kReach = 1.6;  // of an axis, in radii
 constexpr double kShift = 0.25; // of a base that is outside, at a time, in radii
 constexpr int kMaxShifts = 8;
-constexpr double kInside = 1.1 * kThreshold; // where axes may begin
+constexpr double kInside = 1.02 * kThreshold; // where axes may begin
 
 /// Where the axes of each fan begin; not finite where the sheet has no inside.
 std::vector<Vec3> findBases(
