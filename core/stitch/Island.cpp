@@ -67,16 +67,17 @@ public:
     this->join(patch);
     projectPoints(field_, this->pointsToMove(patch), kReach * options_.grid.cellSize, island_.mesh);
     mendNormals(island_.mesh);
-    std::size_t creasePoints = sharpenCreases(field_, options_.grid.lattice({}, {}),
+    sharpenCreases(field_, options_.grid.lattice({}, {}),
       island_.mesh.triangles.size() - patch.triangles.size(), island_.mesh, progress_);
-    improveShapes(field_, island_.mesh, island_.rim.size(), creasePoints, options_.grid.cellSize);
+    onCrease_.resize(island_.mesh.points.size(), true); // those that were added
+    improveShapes(field_, island_.mesh, island_.rim.size(), onCrease_, options_.grid.cellSize);
     this->findFaults(patch);
     if (island_.faults.empty())
     {
       // Turned round, the normals of creases do not mix with those of the faces beside them.
-      this->turnLastNormals(creasePoints);
+      this->turnCreaseNormals();
       whole.finish(island_.mesh, island_.rim.size(), progress_);
-      this->turnLastNormals(creasePoints);
+      this->turnCreaseNormals();
     }
     for (CutMesh& cut : cut_.cuts)
     {
@@ -86,11 +87,37 @@ public:
   }
 
 private:
-  void turnLastNormals(std::size_t count)
+  void turnCreaseNormals()
   {
-    std::vector<Vec3>& normals = island_.mesh.normals;
-    std::for_each(normals.end() - static_cast<std::ptrdiff_t>(count), normals.end(),
-      [](Vec3& normal) { normal = -normal; });
+    for (std::size_t k = 0; k < onCrease_.size(); ++k)
+    {
+      Vec3& normal = island_.mesh.normals[k];
+      normal = onCrease_[k] ? Vec3(-normal) : normal;
+    }
+  }
+
+  /// Points at which cut triangles meet that turn by more than 25 degrees. The pieces that are left
+  /// of them are often too thin to tell.
+  void findCreases()
+  {
+    constexpr double kCosine = 0.906;
+    const TriangleMesh& mesh = island_.mesh;
+    std::vector<Vec3> first(mesh.points.size(), Vec3::Zero());
+    onCrease_.assign(mesh.points.size(), false);
+    std::size_t t = 0;
+    for (std::size_t p = 0; p < parts_.size(); ++p)
+    {
+      for (const std::int32_t source : cut_.cuts[p].pieceOf)
+      {
+        const Vec3 normal =
+          areaNormal(*parts_[p].mesh, static_cast<std::size_t>(source)).stableNormalized();
+        for (const std::int32_t v : mesh.triangles[t++])
+        {
+          first[v] = first[v].isZero(0.0) ? normal : first[v];
+          onCrease_[v] = onCrease_[v] || first[v].dot(normal) < kCosine;
+        }
+      }
+    }
   }
 
   /// The lines in which all cut meshes meet the border: vertices are the cut vertices of the first
@@ -173,6 +200,7 @@ private:
       this->addTriangle({ c[0] + shift, c[1] + shift, c[2] + shift }, -1, -1);
     }
     island_.samplePoints = patch.points.size();
+    this->findCreases();
   }
 
   void addTriangle(const Triangle& triangle, std::int32_t leaf, std::int32_t source)
@@ -360,6 +388,7 @@ private:
   bool hasSourceTriangles_ = false;
   bool hasOrigins_ = false;
   std::vector<std::int32_t> firstCut_; ///< per part: its first cut vertex in the island
+  std::vector<bool> onCrease_;         ///< per point of the island
   Island island_;
 };
 

@@ -25,6 +25,7 @@ constexpr double kWorthIt = 0.002;   // gain in that cosine
 constexpr double kMostBent = 0.15;   // cells, across the four points of a flipped edge
 constexpr double kMostOff = 0.05;    // cells, between old and new surface,
 constexpr double kMostOffCrease = 0.01; // and where a point of a crease goes
+constexpr double kThick = 0.005;        // cells
 constexpr double kLargestTurn = 0.8;    // cosine, of the normal of a triangle,
 constexpr double kLargestTilt = 0.6;    // or of one to the normals of its points
 constexpr double kFlatEnough = 0.94;    // cosine of the angle across an edge that may be flipped
@@ -56,11 +57,11 @@ class ShapeImprover
 {
 public:
   ShapeImprover(const FieldSource& field, TriangleMesh& mesh, std::size_t keptPoints,
-    std::size_t creasePoints, double cellSize)
+    std::vector<bool>& onCrease, double cellSize)
     : field_(field)
     , mesh_(mesh)
     , firstOwn_(static_cast<Index>(keptPoints))
-    , firstOnCrease_(static_cast<Index>(mesh.points.size() - creasePoints))
+    , onCrease_(onCrease)
     , cellSize_(cellSize)
     , links_(mesh.triangles, mesh.points.size())
     , touched_(links_.triangleCount(), false)
@@ -68,21 +69,20 @@ public:
   {
   }
 
-  /// \return how many points are left on creases.
-  std::size_t run()
+  void run()
   {
     this->mendAll();
     for (int round = 0; round < kMoves && this->moveAll(); ++round)
     {
       this->mendAll();
     }
-    return this->giveBack();
+    this->giveBack();
   }
 
 private:
   const Vec3& point(Index v) const { return mesh_.points[v]; }
   bool isOwn(Index v) const { return v >= firstOwn_; }
-  bool isCreasePoint(Index v) const { return v >= firstOnCrease_; }
+  bool isCreasePoint(Index v) const { return onCrease_[static_cast<std::size_t>(v)]; }
 
   double shape(std::size_t t) const
   {
@@ -333,7 +333,8 @@ private:
         const Vec3 old = this->normal(t);
         const double size = old.norm();
         const bool solid = this->shape(t) < kSliver && size > 0.0;
-        if (solid && std::abs(old.dot(target - this->point(b))) > mostOff * size)
+        const bool tells = solid || (this->isCreasePoint(from) && this->isThick(leaving, size));
+        if (tells && std::abs(old.dot(target - this->point(b))) > mostOff * size)
         {
           allowed = false;
         }
@@ -349,6 +350,14 @@ private:
         after += badness(shapeOf(target, this->point(b), this->point(c)));
       });
     return allowed ? before - after : 0.0;
+  }
+
+  /// A triangle, of half this size, whose normal says where a crease is, sliver or not.
+  bool isThick(Index h, double size) const
+  {
+    const double longest = std::max(
+      { this->length(h), this->length(MeshLinks::next(h)), this->length(MeshLinks::previous(h)) });
+    return size > kThick * cellSize_ * longest;
   }
 
   Vec3 meanNormal(Index a, Index b, Index c) const
@@ -368,8 +377,7 @@ private:
     const Vec3& d = this->point(id);
     const double before = badness(shapeOf(a, b, c)) + badness(shapeOf(b, a, d));
     const double after = badness(shapeOf(d, b, c)) + badness(shapeOf(c, a, d));
-    if ((c - d).norm() > std::max(kLongestSide * cellSize_, (a - b).norm()) ||
-      (this->isCreasePoint(ia) && this->isCreasePoint(ib)))
+    if ((c - d).norm() > std::max(kLongestSide * cellSize_, (a - b).norm()))
     {
       return 0.0;
     }
@@ -389,12 +397,13 @@ private:
     const double off = both.dot(c - a) * both.dot(d - a) > 0.0
       ? std::max(std::abs(both.dot(c - a)), std::abs(both.dot(d - a)))
       : std::abs(both.dot(c - d));
-    const bool near = off <= kMostBent * cellSize_ * both.norm();
+    const bool crease = this->isCreasePoint(ia) && this->isCreasePoint(ib);
+    const bool near = off <= (crease ? kMostOffCrease : kMostBent) * cellSize_ * both.norm();
     return near && agrees(normalOf(d, b, c)) && agrees(normalOf(c, a, d)) ? before - after : 0.0;
   }
 
   /// Leaves out what was removed, and keeps the order of the rest.
-  std::size_t giveBack()
+  void giveBack()
   {
     std::vector<Index> number(mesh_.points.size() - static_cast<std::size_t>(firstOwn_), -1);
     std::size_t kept = 0;
@@ -424,7 +433,6 @@ private:
     mesh_.sourceLeaf.resize(kept);
     mesh_.sourceTriangle.resize(mesh_.sourceTriangle.empty() ? 0 : kept);
     auto next = static_cast<std::size_t>(firstOwn_);
-    std::size_t onCreases = 0;
     for (std::size_t k = 0; k < number.size(); ++k)
     {
       if (number[k] < 0)
@@ -432,7 +440,7 @@ private:
         continue;
       }
       const auto from = static_cast<std::size_t>(firstOwn_) + k;
-      onCreases += this->isCreasePoint(static_cast<Index>(from)) ? 1 : 0;
+      onCrease_[next] = onCrease_[from];
       mesh_.points[next] = mesh_.points[from];
       mesh_.normals[next] = mesh_.normals[from];
       if (!mesh_.vertexOrigin.empty())
@@ -443,6 +451,7 @@ private:
     }
     mesh_.points.resize(next);
     mesh_.normals.resize(next);
+    onCrease_.resize(next);
     mesh_.vertexOrigin.resize(mesh_.vertexOrigin.empty() ? 0 : next);
     for (std::size_t t = 0; t < kept; ++t)
     {
@@ -451,13 +460,12 @@ private:
         v = v >= firstOwn_ ? number[v - firstOwn_] : v;
       }
     }
-    return onCreases;
   }
 
   const FieldSource& field_;
   TriangleMesh& mesh_;
   const Index firstOwn_;
-  const Index firstOnCrease_;
+  std::vector<bool>& onCrease_;
   const double cellSize_;
   MeshLinks links_;
   std::vector<bool> touched_;
@@ -467,11 +475,11 @@ private:
 } // namespace
 
 void improveShapes(const FieldSource& field, TriangleMesh& mesh, std::size_t keptPoints,
-  std::size_t& creasePoints, double cellSize)
+  std::vector<bool>& onCrease, double cellSize)
 {
   if (!mesh.triangles.empty())
   {
-    creasePoints = ShapeImprover(field, mesh, keptPoints, creasePoints, cellSize).run();
+    ShapeImprover(field, mesh, keptPoints, onCrease, cellSize).run();
   }
 }
 

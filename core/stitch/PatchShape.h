@@ -5,6 +5,7 @@
 #include "core/polygonize/FieldSource.h"
 
 #include <cstddef>
+#include <vector>
 
 namespace hybridtree
 {
@@ -13,12 +14,12 @@ namespace hybridtree
 /// and moves points along the surface, where that makes the smallest angles larger.
 ///
 /// Points before `keptPoints` stay; the others may move or go. What a collapse takes away lies
-/// within 5 % of a cell of what replaces it, and points at creases do not move, so creases stay.
-/// Edges between two of the last `creasePoints` points, which are on creases, are not flipped, and
-/// these points go only where 1 % of a cell is lost; those that are left are told. A
+/// within 5 % of a cell of what replaces it, and points at creases do not move, so creases stay. A
 /// 2-manifold stays one, of the same genus and border. Triangles that change lose their
 /// sourceTriangle, points that move their origin.
+/// \param onCrease per point: known to be on one. Nothing farther than 1 % of a cell is taken away
+/// there. The same of the points that are left when it returns.
 void improveShapes(const FieldSource& field, TriangleMesh& mesh, std::size_t keptPoints,
-  std::size_t& creasePoints, double cellSize);
+  std::vector<bool>& onCrease, double cellSize);
 
 } // namespace hybridtree

@@ -4,6 +4,7 @@
 #include "core/mesh/HalfEdges.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace hybridtree::test
 {
@@ -15,16 +16,16 @@ double FeatureEdge::distance(const Vec3& p) const
   return (from + share * way - p).norm();
 }
 
-std::vector<FeatureEdge> featureEdges(const TriangleMesh& mesh)
+std::vector<FeatureEdge> featureEdges(const TriangleMesh& mesh, double angle)
 {
-  constexpr double kCosine = 0.906;
+  const double cosine = std::cos(angle * std::acos(-1.0) / 180.0);
   const HalfEdges edges = halfEdges(mesh.triangles);
   std::vector<FeatureEdge> found;
   for (std::size_t h = 0; h < edges.opposite.size(); ++h)
   {
     const auto twin = static_cast<std::size_t>(edges.opposite[h]);
     const Vec3 here = areaNormal(mesh, h / 3).normalized();
-    if (h < twin && here.dot(areaNormal(mesh, twin / 3).normalized()) < kCosine)
+    if (h < twin && here.dot(areaNormal(mesh, twin / 3).normalized()) < cosine)
     {
       const Triangle& c = mesh.triangles[h / 3];
       found.push_back({ mesh.points[c[h % 3]], mesh.points[c[(h + 1) % 3]] });
