@@ -11,6 +11,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -82,7 +83,32 @@ private:
       return distance != other.distance ? distance > other.distance : point < other.point;
     }
   };
-  struct Phase;
+  // What is refined, and how far.
+  struct Phase
+  {
+    double tolerance = 0.0;
+    std::size_t vertices = std::numeric_limits<std::size_t>::max();
+    const Box3* region = nullptr; // all, if null
+
+    static Phase ofLevel(const LevelOfDetail& detail)
+    {
+      Phase phase;
+      phase.tolerance = detail.tolerance;
+      phase.vertices = detail.vertices > 0 ? detail.vertices : phase.vertices;
+      return phase;
+    }
+    static Phase ofRegion(const LevelOfDetail& detail)
+    {
+      Phase phase;
+      phase.tolerance = detail.regionTolerance;
+      phase.region = &detail.region;
+      return phase;
+    }
+    bool wants(const Vec3& point, double distance) const
+    {
+      return distance > tolerance && (!region || region->contains(point));
+    }
+  };
 
   bool reaches(const LevelOfDetail& detail) const;
   ReconstructedSurface ofAll(const Progress& progress) const;

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How DynamicReconstruction adds points to its surface.
+#include "reconstruction/DynamicReconstruction.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace hybridtree
+{
+namespace
+{
+
+// How often convection may start anew for points that could not be taken up.
+constexpr int kRestarts = 3;
+// How often points that were refused are tried again, where others have been placed since.
+constexpr int kTries = 6;
+
+} // namespace
+
+void DynamicReconstruction::refine(const Phase& phase, const Progress& progress)
+{
+  int tries = 0;
+  while (
+    this->refineOnce(phase, progress) && this->vertexCount() < phase.vertices && ++tries < kTries)
+  {
+  }
+  // What was refused may be near to triangles that it was not measured against.
+  if (phase.tolerance > 0.0)
+  {
+    state_->near.measure(this->farPoints(phase), state_->surface, progress);
+  }
+}
+
+// In rounds, each of the farthest points. \returns whether any was refused, and others placed.
+bool DynamicReconstruction::refineOnce(const Phase& phase, const Progress& progress)
+{
+  candidates_.clear();
+  state_->near.forgive();
+  for (const std::int32_t triangle : state_->surface.surface())
+  {
+    this->offerFarthest(phase, triangle);
+  }
+  bool placed = false;
+  bool refused = false;
+  std::size_t step = 0;
+  for (std::vector<std::int32_t> round = this->nextRound(phase);
+       !round.empty() && this->vertexCount() < phase.vertices; round = this->nextRound(phase))
+  {
+    for (const std::int32_t point : round)
+    {
+      if (++step % 256 == 0)
+      {
+        progress.check();
+        progress.report(1.0 - 1.0 / (1.0 + 1e-4 * double(step)));
+      }
+      if (this->vertexCount() < phase.vertices && !state_->near.refused(point) &&
+        phase.wants(points_[point], state_->near.distance(point)))
+      {
+        (this->place(phase, point) ? placed : refused) = true;
+      }
+    }
+  }
+  return placed && refused;
+}
+
+// Of the candidates the farthest: those more than half as far as the farthest of all, but no more
+// than half of what is wanted. In the order of the points, which is one in space: to visit places
+// at random would take twice as long.
+std::vector<std::int32_t> DynamicReconstruction::nextRound(const Phase& phase)
+{
+  constexpr double kNear = 0.5;
+  candidates_.erase(std::remove_if(candidates_.begin(), candidates_.end(),
+                      [&](const Candidate& candidate)
+                      {
+                        return state_->near.refused(candidate.point) ||
+                          state_->near.distance(candidate.point) != candidate.distance;
+                      }),
+    candidates_.end());
+  std::size_t count = candidates_.size();
+  if (const std::size_t wanted = phase.vertices - std::min(phase.vertices, this->vertexCount());
+      wanted / 2 < count)
+  {
+    count = wanted / 2 + 1;
+    std::nth_element(candidates_.begin(),
+      candidates_.begin() + static_cast<std::ptrdiff_t>(count - 1), candidates_.end());
+  }
+  const auto chosen = candidates_.begin() + static_cast<std::ptrdiff_t>(count);
+  double farthest = 0.0;
+  std::for_each(candidates_.begin(), chosen,
+    [&](const Candidate& candidate) { farthest = std::max(farthest, candidate.distance); });
+  std::vector<std::int32_t> round;
+  std::vector<Candidate> rest(chosen, candidates_.end());
+  std::for_each(candidates_.begin(), chosen,
+    [&](const Candidate& candidate)
+    {
+      if (candidate.distance > kNear * farthest)
+      {
+        round.push_back(candidate.point);
+      }
+      else
+      {
+        rest.push_back(candidate);
+      }
+    });
+  candidates_.swap(rest);
+  std::sort(round.begin(), round.end());
+  round.erase(std::unique(round.begin(), round.end()), round.end());
+  return round;
+}
+
+// \returns whether it is no longer too far.
+bool DynamicReconstruction::place(const Phase& phase, std::int32_t point)
+{
+  DynamicSurface& surface = state_->surface;
+  TrianglePoints& near = state_->near;
+  const std::int32_t triangle = near.triangle(point);
+  const double distance = near.distance(point);
+  const std::int32_t other = near.neighbor(point);
+  const auto placed = [&]
+  {
+    state_->reach.push_back(distance);
+    this->follow();
+    for (const std::int32_t added : surface.lastChange().added)
+    {
+      this->offerFarthest(phase, added);
+    }
+    if (other >= 0)
+    {
+      this->offerFarthest(phase, near.triangle(other));
+    }
+    return true;
+  };
+  switch (surface.place(points_[point], surface.triangle(triangle)[0], phase.tolerance))
+  {
+    case DynamicSurface::Outcome::Prepared:
+      placed();
+      return this->place(phase, point);
+    case DynamicSurface::Outcome::Placed:
+      state_->pointOfSite.push_back(point);
+      [[fallthrough]];
+    case DynamicSurface::Outcome::Surfaced:
+      near.move(point, surface.lastChange().removed.front(), 0.0);
+      return placed();
+    case DynamicSurface::Outcome::Near:
+      near.move(point, surface.nearTriangle(), surface.nearDistance());
+      break;
+    case DynamicSurface::Outcome::Coincides:
+      near.move(point, triangle, 0.0);
+      break;
+    case DynamicSurface::Outcome::Refused:
+      near.refuse(point);
+      this->offerFarthest(phase, triangle);
+      return false;
+  }
+  this->offerFarthest(phase, triangle);
+  return true;
+}
+
+void DynamicReconstruction::offerFarthest(const Phase& phase, std::int32_t triangle)
+{
+  Candidate farthest{ 0.0, -1 };
+  state_->near.forEach(triangle,
+    [&](std::int32_t point)
+    {
+      const Candidate candidate{ state_->near.distance(point), point };
+      if (phase.wants(points_[point], candidate.distance) && !state_->near.refused(point) &&
+        (farthest.point < 0 || candidate < farthest))
+      {
+        farthest = candidate;
+      }
+    });
+  if (farthest.point >= 0)
+  {
+    candidates_.push_back(farthest);
+  }
+}
+
+std::vector<std::int32_t> DynamicReconstruction::farPoints(const Phase& phase) const
+{
+  std::vector<std::int32_t> points;
+  for (const std::int32_t point : this->usedPoints())
+  {
+    if (phase.wants(points_[point], state_->near.distance(point)))
+    {
+      points.push_back(point);
+    }
+  }
+  return points;
+}
+
+// For points that could not be taken up. What comes out is kept if it does much better; with
+// another topology, only if that was what most of them missed.
+void DynamicReconstruction::convectAgain(const Phase& phase, const Progress& progress)
+{
+  if (phase.tolerance <= 0.0)
+  {
+    return;
+  }
+  std::vector<std::int32_t> far = this->farPoints(phase);
+  std::size_t fewest = far.size();
+  std::ptrdiff_t topology = this->eulerNumber();
+  State best = *state_;
+  for (int restart = 0; restart < kRestarts && !far.empty(); ++restart)
+  {
+    this->addSites(far, progress);
+    const bool solid = this->convect(progress);
+    this->measureAll(progress);
+    this->refine(phase, progress);
+    far = this->farPoints(phase);
+    const std::size_t better = this->eulerNumber() == topology ? 2 : 10;
+    if (solid && better * far.size() < fewest)
+    {
+      best = *state_;
+      fewest = far.size();
+      topology = this->eulerNumber();
+    }
+  }
+  *state_ = std::move(best);
+}
+
+} // namespace hybridtree
