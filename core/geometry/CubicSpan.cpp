@@ -262,10 +262,20 @@ PreparedSpan::PreparedSpan(const CubicSpan& span)
   for (int k = 0; k < 3; ++k)
   {
     tangent[k] = 3.0 * (b[k + 1] - b[k]);
+    widening[k] = 3.0 * (radius[k + 1] - radius[k]);
   }
   power = { b[0], 3.0 * (b[1] - b[0]), 3.0 * (b[2] - 2.0 * b[1] + b[0]),
     b[3] - b[0] + 3.0 * (b[1] - b[2]) };
+  radiusPower = { radius[0], 3.0 * (radius[1] - radius[0]),
+    3.0 * (radius[2] - 2.0 * radius[1] + radius[0]),
+    radius[3] - radius[0] + 3.0 * (radius[1] - radius[2]) };
   self = cubicTimesQuadratic(b, tangent, [](const Vec3& u, const Vec3& v) { return u.dot(v); });
+  const Quintic growth =
+    cubicTimesQuadratic(radius, widening, [](double u, double v) { return u * v; });
+  for (int k = 0; k < 6; ++k)
+  {
+    self[k] -= growth[k];
+  }
   // Tight bounds carry rounding, and decide what is never looked at.
   const double slack = 1e-15 * (box.min().cwiseAbs().maxCoeff() + box.max().cwiseAbs().maxCoeff());
   box = Box3(Vec3(box.min().array() - slack), Vec3(box.max().array() + slack));
@@ -274,7 +284,7 @@ PreparedSpan::PreparedSpan(const CubicSpan& span)
   {
     for (int j = 1; j < 4; ++j)
     {
-      selfPower[i + j - 1] += j * power[i].dot(power[j]);
+      selfPower[i + j - 1] += j * (power[i].dot(power[j]) - radiusPower[i] * radiusPower[j]);
     }
   }
 }
@@ -318,19 +328,16 @@ double leastThickDistance(const PreparedSpan& span, const Vec3& local, double& t
   };
   offer(1.0);
   const Quintic base = slopeAt(span, local);
-  const std::array<double, 3> widening = { 3.0 * (span.radius[1] - span.radius[0]),
-    3.0 * (span.radius[2] - span.radius[1]), 3.0 * (span.radius[3] - span.radius[2]) };
   for (int round = 0; round < 30; ++round)
   {
     const double before = least;
-    const std::array<double, 4> reach = { before + span.radius[0], before + span.radius[1],
-      before + span.radius[2], before + span.radius[3] };
     Quintic q = base;
-    const Quintic growth =
-      cubicTimesQuadratic(reach, widening, [](double a, double b) { return a * b; });
     for (int k = 0; k < 6; ++k)
     {
-      q[k] -= growth[k];
+      for (int j = 0; j < 3; ++j)
+      {
+        q[k] -= before * PreparedSpan::kElevation[k][j] * span.widening[j];
+      }
     }
     forEachMinimum(q, 0.0, 1.0, 0, offer);
     if (!(before - least > 1e-15 * (std::abs(before) + span.radius[0])))

@@ -54,18 +54,21 @@ struct CubicSpan
 /// A span with what each distance query needs of it, made once per batch or once for all.
 ///
 /// q(t) = (c(t) - p) . c'(t), half the derivative of the squared distance, is a quintic that is
-/// linear in p: its coefficients are constants minus those of p . c'(t).
+/// linear in p: its coefficients are constants minus those of p . c'(t). With a radius it is
+/// (c(t) - p) . c'(t) - (u + s(t)) s'(t), and linear in the distance u, too.
 struct PreparedSpan
 {
   explicit PreparedSpan(const CubicSpan& span);
 
-  Vec3 origin;                     ///< first control point; all that follows is relative to it
-  std::array<Vec3, 4> power;       ///< coefficients of c(t), of 1, t, t^2, t^3
-  std::array<Vec3, 3> tangent;     ///< Bernstein coefficients of c'(t)
-  std::array<double, 6> self;      ///< Bernstein coefficients of c . c'
-  std::array<double, 6> selfPower; ///< of 1, t, ... t^5
-  std::array<double, 4> radius;    ///< Bernstein coefficients of s(t)
-  Box3 box;                        ///< bounds of c(t)
+  Vec3 origin;                       ///< first control point; all that follows is relative to it
+  std::array<Vec3, 4> power;         ///< coefficients of c(t), of 1, t, t^2, t^3
+  std::array<Vec3, 3> tangent;       ///< Bernstein coefficients of c'(t)
+  std::array<double, 6> self;        ///< Bernstein coefficients of c . c' - s s'
+  std::array<double, 6> selfPower;   ///< of 1, t, ... t^5
+  std::array<double, 4> radius;      ///< Bernstein coefficients of s(t)
+  std::array<double, 4> radiusPower; ///< of 1, t, t^2, t^3
+  std::array<double, 3> widening;    ///< Bernstein coefficients of s'(t)
+  Box3 box;                          ///< bounds of c(t)
   double largestRadius;
   bool thick;
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace hybridtree
 {
@@ -103,46 +102,13 @@ void CurveDistance::slice(PointBatch points, VectorBatch offset, double* radius,
   }
   if (thick_)
   {
-    this->thickSlice(points, near, offset, radius);
+    nearestOnThickSpans(near.data(), near.size(), points, offset, radius);
     return;
   }
   nearestOnSpans(near.data(), near.size(), points, offset);
   if (radius)
   {
     std::fill_n(radius, points.size, 0.0);
-  }
-}
-
-void CurveDistance::thickSlice(PointBatch points, const std::vector<const PreparedSpan*>& near,
-  VectorBatch offset, double* radius) const
-{
-  for (std::size_t k = 0; k < points.size; ++k)
-  {
-    const Vec3 p = points[k];
-    double least = std::numeric_limits<double>::infinity();
-    const PreparedSpan* nearest = near.front();
-    double nearestT = 0.0;
-    for (const PreparedSpan* span : near)
-    {
-      const double bound = std::sqrt(span->box.squaredExteriorDistance(p)) - span->largestRadius;
-      if (bound > least + kSlack * (size_ + std::abs(least)))
-      {
-        continue;
-      }
-      double t;
-      const double here = leastThickDistance(*span, p - span->origin, t);
-      if (here < least)
-      {
-        least = here;
-        nearest = span;
-        nearestT = t;
-      }
-    }
-    offset.set(k, p - nearest->origin - nearest->at(nearestT));
-    if (radius)
-    {
-      radius[k] = nearest->radiusAt(nearestT);
-    }
   }
 }
 

@@ -33,8 +33,6 @@ public:
 
 private:
   void slice(PointBatch points, VectorBatch offset, double* radius, double reach) const;
-  void thickSlice(PointBatch points, const std::vector<const PreparedSpan*>& near,
-    VectorBatch offset, double* radius) const;
 
   std::vector<PreparedSpan> spans_;
   Box3 bounds_;
@@ -42,9 +40,14 @@ private:
   bool thick_ = false;
 };
 
-/// Vectors from the nearest point of several thin spans to each point. \pre count > 0.
+///@{
+/// Vectors from the nearest point of several thin spans to each point, or from the centre of the
+/// nearest ball of thick ones, and its radius. \pre count > 0.
 /// Chosen at run time for this processor's widest vectors.
 void nearestOnSpans(
   const PreparedSpan* const* spans, std::size_t count, PointBatch points, VectorBatch offset);
+void nearestOnThickSpans(const PreparedSpan* const* spans, std::size_t count, PointBatch points,
+  VectorBatch offset, double* radius);
+///@}
 
 } // namespace hybridtree

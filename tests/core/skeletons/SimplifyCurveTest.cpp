@@ -2,6 +2,9 @@
 // Levels of detail: fewer points, and surfaces no farther apart than the level says.
 #include "core/skeletons/SimplifyCurve.h"
 
+#include "core/nodes/CurveTree.h"
+#include "core/nodes/Primitive.h"
+#include "core/skeletons/Revolution.h"
 #include "core/skeletons/Spline.h"
 #include "tests/support/Random.h"
 
@@ -91,6 +94,118 @@ TEST(SimplifyCurve, SurfacesStayWithinTheToleranceOfTheLevel)
         }
         EXPECT_EQ(before, full.points.size()); // the last level is exact
       }
+    }
+  }
+}
+
+// The farthest of the mesh's points from the surface at `radius` around another skeleton.
+double meshDistance(const TriangleMesh& mesh, const Skeleton& other, double radius)
+{
+  const PointList points(mesh.points);
+  std::vector<double> distance(points.size());
+  other.signedDistance(points, distance.data());
+  double most = 0.0;
+  for (const double d : distance)
+  {
+    most = std::max(most, std::abs(d - radius));
+  }
+  return most;
+}
+
+RevolutionShape vase(SplineKind kind, bool solid, const SplineCurve* profile = nullptr)
+{
+  RevolutionShape shape{ Vec3(1, 2, 3), Vec3(1, -1, 2), {}, solid };
+  shape.profile.kind = kind;
+  for (int k = 0; k <= 80; ++k)
+  {
+    const double height = 0.05 * k;
+    shape.profile.points.emplace_back(
+      1.2 + 0.5 * std::sin(1.7 * height) + 0.004 * std::cos(9.0 * height), height, 0.0);
+  }
+  shape.profile = profile ? *profile : shape.profile;
+  return shape;
+}
+
+TEST(SimplifyCurve, SurfacesOfRevolutionStayWithinTheToleranceOfTheLevel)
+{
+  constexpr double kRadius = 0.1;
+  for (const SplineKind kind :
+    { SplineKind::CatmullRom, SplineKind::BSpline, SplineKind::Polyline })
+  {
+    for (const bool solid : { false, true })
+    {
+      const RevolutionSkeleton full(vase(kind, solid));
+      const SplineCurve& profile = full.shape().profile;
+      const auto fullMesh = full.offsetMesh(kRadius, 0.2);
+      std::size_t before = 0;
+      for (int level = 0; level <= kExactDetail; ++level)
+      {
+        const double tolerance = detailTolerance(profile, level);
+        const SplineCurve fewer = simplified(profile, tolerance);
+        const RevolutionSkeleton coarse(vase(kind, solid, &fewer));
+        // Each query looks at spans: there are fewer of them.
+        const std::size_t spans = drawnProfile(coarse.shape()).size();
+        EXPECT_GE(spans, before);
+        before = spans;
+        if (level == 0)
+        {
+          EXPECT_LE(spans, drawnProfile(full.shape()).size() / 2);
+        }
+        ASSERT_TRUE(fullMesh) << int(kind) << solid;
+        EXPECT_LE(meshDistance(*fullMesh, coarse, kRadius), tolerance + 1e-12) << level;
+        if (const auto mesh = coarse.offsetMesh(kRadius, 0.2))
+        {
+          EXPECT_LE(meshDistance(*mesh, full, kRadius), tolerance + 1e-12) << level;
+        }
+      }
+      EXPECT_EQ(before, drawnProfile(full.shape()).size());
+    }
+  }
+}
+
+// Leaf by leaf: a blend of curves moves by more where it is flat.
+TEST(SimplifyCurve, LeavesOfACurveTreeStayWithinTheToleranceOfTheLevel)
+{
+  const std::vector<SplineCurve> curves = { wave(SplineKind::CatmullRom, false, true),
+    wave(SplineKind::BSpline, true, false), wave(SplineKind::CatmullRom, true, true) };
+  const auto treeOf = [&](int level) {
+    return makeCurveTree(curves, { Potential::bySurfaceRadius(0.1, 0.25, 2), true, level });
+  };
+  const auto skeletonOf = [](const NodePtr& leaf) -> const SplineSkeleton&
+  { return dynamic_cast<const SplineSkeleton&>(dynamic_cast<const Primitive&>(*leaf).skeleton()); };
+  const std::vector<NodePtr> full = treeOf(kExactDetail)->children();
+  std::size_t before = 0;
+  for (int level = 0; level < kExactDetail; ++level)
+  {
+    const NodePtr coarseTree = treeOf(level);
+    const std::vector<NodePtr> coarse = coarseTree->children();
+    ASSERT_EQ(coarse.size(), curves.size());
+    std::size_t spans = 0;
+    for (std::size_t k = 0; k < curves.size(); ++k)
+    {
+      spans += splineSpanCount(skeletonOf(coarse[k]).curve());
+      const double tolerance = detailTolerance(curves[k], level);
+      const auto farthest = [&](const Node& from, const Node& to)
+      {
+        const PointList points(from.mesh(0.1)->points);
+        std::vector<double> distance(points.size());
+        to.signedDistance(points, distance.data());
+        double most = 0.0;
+        for (const double d : distance)
+        {
+          most = std::isnan(d) ? most : std::max(most, std::abs(d)); // not known inside
+        }
+        return most;
+      };
+      EXPECT_LE(farthest(*coarse[k], *full[k]), tolerance + 1e-12) << k << " level " << level;
+      EXPECT_LE(farthest(*full[k], *coarse[k]), tolerance + 1e-12) << k << " level " << level;
+    }
+    EXPECT_GE(spans, before);
+    before = spans;
+    EXPECT_LE(spans, 120u + 120u + 119u);
+    if (level == 0)
+    {
+      EXPECT_LE(spans, (120u + 120u + 119u) / 2);
     }
   }
 }
