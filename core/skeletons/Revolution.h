@@ -44,8 +44,8 @@ public:
   Box3 bounds() const override;
 
   /// The revolved offset of the profile: arcs around its corners, trimmed where it turns inwards.
-  /// No value where that meets itself (found on dense samples), where a curved part turns inwards
-  /// with a corner, and for sheets between two points of the axis.
+  /// No value where that meets itself (found on dense samples and on the rings), where a curved
+  /// part turns inwards with a corner, and for sheets between two points of the axis.
   std::optional<TriangleMesh> offsetMesh(double radius, double edgeLength) const override;
 
   SkeletonPtr similarityImage(const Affine3& map, double scale) const override;

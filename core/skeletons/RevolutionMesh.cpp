@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/skeletons/Revolution.h"
+
+#include "core/base/Scratch.h"
 #include "core/skeletons/RevolvedMesh.h"
 
 #include <algorithm>
@@ -294,19 +296,36 @@ std::vector<Vec2> samplesOf(const Meridian& meridian)
   return samples;
 }
 
-// Whether each sample is as far from the profile as it should be.
-bool keepsDistance(const std::vector<Vec2>& samples, const CurveDistance& distance, double radius)
+// Whether each point is as far from the profile as it should be.
+bool keepsDistance(const std::vector<Vec2>& points, const CurveDistance& distance, double radius)
 {
   const double slack = 1e-9 * (distance.bounds().diagonal().norm() + radius);
-  return std::all_of(samples.begin(), samples.end(),
-    [&](const Vec2& p)
+  ScratchVectors places(points.size());
+  ScratchVectors offsets(points.size());
+  for (std::size_t k = 0; k < points.size(); ++k)
+  {
+    places.batch().set(k, Vec3(points[k].x(), points[k].y(), 0.0));
+  }
+  distance.offsets(
+    places.points(), offsets.batch(), nullptr, std::numeric_limits<double>::infinity());
+  for (std::size_t k = 0; k < points.size(); ++k)
+  {
+    if (!(offsets.batch()[k].norm() > radius - slack && points[k].x() > -slack))
     {
-      const double zero = 0.0;
-      Vec3 offset;
-      distance.offsets({ &p.x(), &p.y(), &zero, 1 }, { &offset.x(), &offset.y(), &offset.z() },
-        nullptr, std::numeric_limits<double>::infinity());
-      return offset.norm() > radius - slack && p.x() > -slack;
-    });
+      return false;
+    }
+  }
+  return true;
+}
+
+std::vector<Vec2> placesOf(const std::vector<Ring>& rings)
+{
+  std::vector<Vec2> places;
+  for (const Ring& ring : rings)
+  {
+    places.push_back(ring.place.position);
+  }
+  return places;
 }
 
 bool segmentsCross(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d)
@@ -367,7 +386,14 @@ std::optional<TriangleMesh> meshRevolution(const RevolutionShape& shape, const V
   {
     return std::nullopt;
   }
-  return meshRevolved(meridian, { shape.origin, shape.axis, side }, edgeLength);
+  // Between two samples the offset may still be inside of itself, which shows where a ring is
+  // there.
+  const std::vector<Ring> rings = revolvedRings(meridian, edgeLength);
+  if (!keepsDistance(placesOf(rings), distance, radius))
+  {
+    return std::nullopt;
+  }
+  return meshRings(rings, meridian.loop(), { shape.origin, shape.axis, side });
 }
 
 } // namespace hybridtree

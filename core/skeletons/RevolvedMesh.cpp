@@ -34,8 +34,13 @@ double estimatedCount(const Meridian& meridian, double edgeLength)
 
 TriangleMesh meshRevolved(const Meridian& meridian, const RevolvedFrame& frame, double edgeLength)
 {
+  return meshRings(revolvedRings(meridian, edgeLength), meridian.loop(), frame);
+}
+
+std::vector<Ring> revolvedRings(const Meridian& meridian, double edgeLength)
+{
   requireModestCount(estimatedCount(meridian, edgeLength), edgeLength);
-  return meshRings(RingPlan(meridian, edgeLength).rings(), meridian.loop(), frame);
+  return RingPlan(meridian, edgeLength).rings();
 }
 
 } // namespace hybridtree

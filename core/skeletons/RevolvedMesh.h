@@ -5,6 +5,8 @@
 #include "core/skeletons/Meridian.h"
 #include "core/skeletons/RingMesh.h"
 
+#include <vector>
+
 namespace hybridtree
 {
 
@@ -25,5 +27,8 @@ namespace hybridtree
 /// \pre the meridian has pieces; edgeLength is finite and > 0. \throws TooLarge, naming the
 /// estimate, beyond 50 million triangles.
 TriangleMesh meshRevolved(const Meridian& meridian, const RevolvedFrame& frame, double edgeLength);
+
+/// Its rings, for meshRings(), closed for a loop. \throws as meshRevolved().
+std::vector<Ring> revolvedRings(const Meridian& meridian, double edgeLength);
 
 } // namespace hybridtree

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace hybridtree
@@ -117,6 +118,76 @@ TEST(Revolution, VolumeConvergesToTheSolid)
       EXPECT_LE(std::abs(fine), std::abs(coarse) / 8.0 + 1e-12) << item.name;
     }
   }
+}
+
+// Share of the box in which the distance is below the radius, times its volume, and twice the
+// standard deviation of that.
+std::pair<double, double> sampledVolume(
+  test::Random& random, const Skeleton& skeleton, double radius)
+{
+  constexpr int kCount = 20000;
+  Box3 box = skeleton.bounds();
+  box = Box3(Vec3(box.min().array() - radius), Vec3(box.max().array() + radius));
+  PointList points;
+  for (int k = 0; k < kCount; ++k)
+  {
+    points.add(box.min() +
+      Vec3(random.unit(), random.unit(), random.unit()).cwiseProduct(Vec3(box.sizes())));
+  }
+  std::vector<double> distance(points.size());
+  skeleton.signedDistance(points, distance.data());
+  const double share =
+    double(std::count_if(distance.begin(), distance.end(), [&](double d) { return d < radius; })) /
+    kCount;
+  return { share * box.volume(), 2.0 * box.volume() * std::sqrt(share * (1.0 - share) / kCount) };
+}
+
+TEST(Revolution, RandomProfilesMakeClosedMeshesOfTheRightVolume)
+{
+  test::Random random(47);
+  int meshed = 0;
+  for (int round = 0; round < 80; ++round)
+  {
+    const bool closed = round % 4 == 3;
+    std::vector<Vec3> points;
+    const int count = random.integer(closed ? 3 : 2, 7);
+    for (int k = 0; k < count; ++k)
+    {
+      const double turn = 2.0 * EIGEN_PI * k / count;
+      points.push_back(closed ? Vec3(1.2 + random.uniform(0.4, 0.8) * std::cos(turn),
+                                  random.uniform(0.4, 0.8) * std::sin(turn), 0.0)
+                              : Vec3(random.chance(0.2) ? 0.0 : random.uniform(0.05, 1.0),
+                                  0.5 * k + random.uniform(-0.2, 0.2), 0.0));
+    }
+    const bool solid = random.chance(0.6);
+    const RevolutionSkeleton skeleton =
+      make(points, static_cast<SplineKind>(random.integer(0, 2)), closed, solid);
+    const double radius = solid && random.chance(0.3) ? 0.0 : random.uniform(0.02, 0.15);
+    const auto mesh = skeleton.offsetMesh(radius, 0.05);
+    if (!mesh)
+    {
+      continue;
+    }
+    ++meshed;
+    const MeshReport report = checkMesh(*mesh);
+    EXPECT_TRUE(report.closedManifold()) << round << " " << report.describe();
+    const PointList vertices(mesh->points);
+    std::vector<double> distance(vertices.size());
+    skeleton.signedDistance(vertices, distance.data());
+    for (const double d : distance)
+    {
+      EXPECT_NEAR(d, radius, 1e-9) << round;
+    }
+    const auto [volume, deviation] = sampledVolume(random, skeleton, radius);
+    // Flat triangles cut a little off: their sag, over the surface.
+    double area = 0.0;
+    for (std::size_t t = 0; t < mesh->triangles.size(); ++t)
+    {
+      area += 0.5 * areaNormal(*mesh, t).norm();
+    }
+    EXPECT_NEAR(signedVolume(*mesh), volume, 2.5 * deviation + 0.004 * area) << round;
+  }
+  EXPECT_GT(meshed, 30);
 }
 
 TEST(Revolution, OffsetsThatMeetThemselvesAreLeftToTheLattice)
