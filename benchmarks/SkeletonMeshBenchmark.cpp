@@ -5,15 +5,16 @@
 //   vtkSampleFunction + vtkMarchingCubes, the brute force that the paper compares with;
 //   vtkSampleFunction + vtkFlyingEdges3D;
 //   for the point, vtkSphereSource.
-// One thread, CPU time. The samples of point, circle and box are by a distance written out in the
-// function that VTK calls, so that VTK is not charged for our layers; those of the others ask the
-// skeleton, point by point.
-// Meshes of equal size are not equally good: `count` is how many triangles the direct mesh needs to
-// be as near the surface as the other one, as a share of that one's (the error of either goes with
-// the square of its edges).
+// The last shape is a whole tree of Curve Skeletons, whose mesh is made of its curves' and of
+// patches where they blend. One thread, CPU time. The samples of point, circle and box are by a
+// distance written out in the function that VTK calls, so that VTK is not charged for our layers;
+// those of the others ask the skeleton, point by point. Meshes of equal size are not equally good:
+// `count` is how many triangles the direct mesh needs to be as near the surface as the other one,
+// as a share of that one's (the error of either goes with the square of its edges).
 #include "benchmarks/support/MeshQuality.h"
 #include "benchmarks/support/ResultTable.h"
 #include "core/base/Parallel.h"
+#include "core/nodes/CurveTree.h"
 #include "core/nodes/LatticeMesh.h"
 #include "core/nodes/Primitive.h"
 #include "core/skeletons/Box.h"
@@ -47,6 +48,7 @@
 
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -59,13 +61,16 @@ constexpr double kTriangles = 57000.0;
 constexpr double kSurface = 0.3;
 constexpr double kInfluence = 0.6;
 
-using Distance = std::function<double(const double*)>;
+using Function = std::function<double(const double*)>;
+using DirectMesh = std::function<std::optional<TriangleMesh>(double edgeLength)>;
 
 struct Shape
 {
   std::string name;
-  SkeletonPtr skeleton;
-  Distance distance; // written out, or that of the skeleton
+  Function distance; // to the skeleton, written out, or that of the skeleton
+  Function field;    // null: by the distance
+  Function error;    // distance to the surface
+  DirectMesh direct;
   NodePtr node;
   double edgeLength = 0.0; // for as many triangles as wanted, of the direct mesh
   double latticeCell = 0.0;
@@ -79,13 +84,18 @@ public:
   using vtkImplicitFunction::EvaluateFunction;
   double EvaluateFunction(double x[3]) override
   {
+    if (field)
+    {
+      return field(x);
+    }
     const double d = distance(x);
     const double u = std::max(0.0, 1.0 - d * d / (kInfluence * kInfluence));
     return amplitude * u * u;
   }
   void EvaluateGradient(double[3], double gradient[3]) override { std::fill_n(gradient, 3, 0.0); }
 
-  Distance distance;
+  Function distance;
+  Function field;
   double amplitude =
     kThreshold / std::pow(1.0 - kSurface * kSurface / (kInfluence * kInfluence), 2);
 };
@@ -110,6 +120,7 @@ vtkNew<Contour> contourOf(const Shape& shape, double cell)
 {
   vtkNew<FieldFunction> function;
   function->distance = shape.distance;
+  function->field = shape.field;
   const Box3 box = shape.node->surfaceBounds();
   int size[3];
   double bounds[6];
@@ -133,7 +144,7 @@ vtkNew<Contour> contourOf(const Shape& shape, double cell)
   return contour;
 }
 
-Distance distanceOf(const SkeletonPtr& skeleton)
+Function distanceOf(const SkeletonPtr& skeleton)
 {
   return [skeleton](const double* x)
   {
@@ -143,11 +154,70 @@ Distance distanceOf(const SkeletonPtr& skeleton)
   };
 }
 
-Shape shapeOf(const std::string& name, SkeletonPtr skeleton, Distance distance = nullptr)
+Shape shapeOf(const std::string& name, SkeletonPtr skeleton, Function distance = nullptr)
 {
-  Shape shape{ name, skeleton, distance ? std::move(distance) : distanceOf(skeleton), nullptr };
+  Shape shape;
+  shape.name = name;
+  shape.distance = distance ? std::move(distance) : distanceOf(skeleton);
+  shape.error = [skeleton](const double* x)
+  {
+    double distance;
+    skeleton->signedDistance({ x, x + 1, x + 2, 1 }, &distance);
+    return distance - kSurface;
+  };
+  shape.direct = [skeleton](double edgeLength)
+  { return skeleton->offsetMesh(kSurface, edgeLength); };
   shape.node =
     makePrimitive(std::move(skeleton), Potential::bySurfaceRadius(kSurface, kInfluence, 2));
+  return shape;
+}
+
+// Five tapering fingers on a palm, blended.
+std::vector<SplineCurve> hand()
+{
+  std::vector<SplineCurve> curves;
+  for (int finger = 0; finger < 5; ++finger)
+  {
+    const double angle = 0.35 * (finger - 2);
+    const double length = finger == 4 ? 1.3 : 2.0 - 0.15 * std::abs(finger - 1);
+    const Vec3 out(std::sin(angle), std::cos(angle), 0.0);
+    const Vec3 foot(0.35 * (finger - 2), 0.0, 0.0);
+    curves.push_back(
+      { { foot, foot + 0.35 * length * out, foot + Vec3(0.7 * length * out + 0.1 * Vec3::UnitZ()),
+          foot + length * out },
+        { 0.16, 0.15, 0.13, 0.09 } });
+  }
+  curves.push_back(
+    { { Vec3(-0.9, -0.1, 0.0), Vec3(-0.3, 0.0, -0.1), Vec3(0.3, 0.0, -0.1), Vec3(0.9, -0.1, 0.0) },
+      { 0.12, 0.2, 0.2, 0.12 } });
+  return curves;
+}
+
+// The distance is that to first order: no blend has an exact one.
+Shape treeShape(const std::string& name, const std::vector<SplineCurve>& curves)
+{
+  const CurveTreeOptions options{ Potential::bySurfaceRadius(0.1, 0.2, 2) };
+  Shape shape;
+  shape.name = name;
+  // Made anew each time: a node keeps its meshes.
+  shape.direct = [=](double edgeLength)
+  { return std::optional<TriangleMesh>(*makeCurveTree(curves, options)->mesh(edgeLength)); };
+  const NodePtr tree = makeCurveTree(curves, options);
+  shape.node = tree;
+  shape.field = [tree](const double* x)
+  {
+    double value;
+    tree->field({ x, x + 1, x + 2, 1 }, &value);
+    return value;
+  };
+  shape.error = [tree](const double* x)
+  {
+    double value;
+    Vec3 gradient;
+    tree->fieldAndGradient(
+      { x, x + 1, x + 2, 1 }, &value, { &gradient.x(), &gradient.y(), &gradient.z() });
+    return (kThreshold - value) / gradient.norm();
+  };
   return shape;
 }
 
@@ -200,6 +270,7 @@ std::vector<Shape> shapes()
   all.push_back(shapeOf("surface of revolution", std::make_shared<RevolutionSkeleton>(vase)));
   vase.solid = true;
   all.push_back(shapeOf("solid of revolution", std::make_shared<RevolutionSkeleton>(vase)));
+  all.push_back(treeShape("curve skeletons", hand()));
   return all;
 }
 
@@ -208,7 +279,7 @@ void chooseSizes(Shape& shape)
   shape.edgeLength = lengthFor(
     [&](double length)
     {
-      const auto mesh = shape.skeleton->offsetMesh(kSurface, length);
+      const auto mesh = shape.direct(length);
       return mesh ? double(mesh->triangles.size()) : kTriangles;
     },
     0.03);
@@ -224,8 +295,8 @@ template <class Make>
 void add(benchmarks::ResultTable& table, const Shape& shape, const char* method, const Make& make)
 {
   const std::string name = shape.name + "/" + method;
-  table.add(shape.name, method, name,
-    benchmarks::qualityOf(benchmarks::trianglesOf(make()), *shape.skeleton, kSurface));
+  table.add(
+    shape.name, method, name, benchmarks::qualityOf(benchmarks::trianglesOf(make()), shape.error));
   benchmark::RegisterBenchmark(name.c_str(),
     [make](benchmark::State& state)
     {
@@ -239,10 +310,9 @@ void add(benchmarks::ResultTable& table, const Shape& shape, const char* method,
 
 void addAll(benchmarks::ResultTable& table, const Shape& shape)
 {
-  if (shape.skeleton->offsetMesh(kSurface, shape.edgeLength))
+  if (shape.direct(shape.edgeLength))
   {
-    add(table, shape, "direct",
-      [shape] { return *shape.skeleton->offsetMesh(kSurface, shape.edgeLength); });
+    add(table, shape, "direct", [shape] { return *shape.direct(shape.edgeLength); });
   }
   add(table, shape, "our marching cubes",
     [shape] { return latticeMesh(*shape.node, shape.latticeCell); });

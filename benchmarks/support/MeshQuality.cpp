@@ -12,7 +12,8 @@ namespace benchmarks
 
 using namespace hybridtree;
 
-MeshQuality qualityOf(const TriangleMesh& mesh, const Skeleton& skeleton, double radius)
+MeshQuality qualityOf(
+  const TriangleMesh& mesh, const std::function<double(const double*)>& distance)
 {
   MeshQuality quality;
   quality.triangles = mesh.triangles.size();
@@ -36,9 +37,8 @@ MeshQuality qualityOf(const TriangleMesh& mesh, const Skeleton& skeleton, double
     quality.aspectRatio +=
       std::min(1e3, *std::max_element(lengths, lengths + 3) / (2.0 * std::sqrt(3.0) * inradius));
     const Vec3 center = (mesh.points[t[0]] + mesh.points[t[1]] + mesh.points[t[2]]) / 3.0;
-    double distance;
-    skeleton.signedDistance({ &center.x(), &center.y(), &center.z(), 1 }, &distance);
-    quality.error += (distance - radius) * (distance - radius);
+    const double off = distance(center.data());
+    quality.error += off * off;
   }
   const double count = double(mesh.triangles.size());
   quality.meanLeast /= count;

@@ -2,10 +2,11 @@
 #pragma once
 
 #include "core/mesh/TriangleMesh.h"
-#include "core/skeletons/Skeleton.h"
 
 #include <vtkNew.h>
 #include <vtkPolyData.h>
+
+#include <functional>
 
 namespace benchmarks
 {
@@ -20,8 +21,9 @@ struct MeshQuality
   double aspectRatio = 0.0; ///< mean of longest side over twice sqrt(3) inradius; 1 is equilateral
 };
 
+/// \param distance of a point (x, y, z) to the surface.
 MeshQuality qualityOf(
-  const hybridtree::TriangleMesh& mesh, const hybridtree::Skeleton& skeleton, double radius);
+  const hybridtree::TriangleMesh& mesh, const std::function<double(const double*)>& distance);
 
 ///@{
 /// The triangles of any result.
