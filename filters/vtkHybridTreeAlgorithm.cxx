@@ -188,7 +188,8 @@ void vtkHybridTreeAlgorithm::UpdateNode(vtkInformationVector** inputs)
   std::vector<std::string> warnings;
   Operands operands = this->ReadOperands(inputs, warnings);
   const bool othersChanged = this->ReadOtherInputs(inputs);
-  if (othersChanged || !state.Node || state.NodeTime != this->GetMTime() || state.NodeOperands != operands)
+  if (othersChanged || !state.Node || state.NodeTime != this->GetMTime() ||
+    state.NodeOperands != operands)
   {
     state.Node = nullptr;
     state.Told.clear();
@@ -219,7 +220,7 @@ void vtkHybridTreeAlgorithm::WriteOutput(
   if (withMesh)
   {
     ++this->NumberOfMeshings;
-    const hybridtree::MeshPtr mesh = state.Node->mesh(this->EdgeLength, progress);
+    const MeshPtr mesh = this->MakeMesh(*state.Node, progress);
     hybridtree::toPolyData(mesh, output);
     this->Warn(hybridtree::passArrays(arrays, leaves, *mesh, output));
   }
@@ -238,6 +239,13 @@ bool vtkHybridTreeAlgorithm::TakesNodes(int)
 bool vtkHybridTreeAlgorithm::ReadOtherInputs(vtkInformationVector**)
 {
   return false;
+}
+
+//------------------------------------------------------------------------------
+vtkHybridTreeAlgorithm::MeshPtr vtkHybridTreeAlgorithm::MakeMesh(
+  const hybridtree::Node& node, const hybridtree::Progress& progress)
+{
+  return node.mesh(this->EdgeLength, progress);
 }
 
 //------------------------------------------------------------------------------

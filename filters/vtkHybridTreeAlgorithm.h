@@ -43,6 +43,7 @@ namespace hybridtree
 {
 class Node;
 class Progress;
+struct TriangleMesh;
 }
 
 class HYBRIDTREEFILTERS_EXPORT vtkHybridTreeAlgorithm : public vtkPolyDataAlgorithm
@@ -88,6 +89,7 @@ public:
   ///@}
 
 #ifndef __VTK_WRAP__
+  using MeshPtr = std::shared_ptr<const hybridtree::TriangleMesh>;
   using NodePtr = std::shared_ptr<const hybridtree::Node>;
 
   /**
@@ -111,8 +113,8 @@ protected:
   virtual NodePtr MakeNode(const Operands& operands) = 0;
 
   /**
-   * False for an input port that takes data which are no node, such as curves. Operands have none of
-   * its connections; ReadOtherInputs() reads them.
+   * False for an input port that takes data which are no node, such as curves. Operands have none
+   * of its connections; ReadOtherInputs() reads them.
    */
   virtual bool TakesNodes(int port);
 
@@ -121,6 +123,12 @@ protected:
    * that the node has to be made again.
    */
   virtual bool ReadOtherInputs(vtkInformationVector** inputs);
+
+  /**
+   * What stands for the node in the first output: its mesh at EdgeLength, unless a subclass shows
+   * something else.
+   */
+  virtual MeshPtr MakeMesh(const hybridtree::Node& node, const hybridtree::Progress& progress);
 
   /**
    * Fills the output ports from 1 on, once the node is there.

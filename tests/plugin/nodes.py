@@ -64,6 +64,9 @@ def pipeline(folder):
         Points=[0.2, 0, -0.3, 0.3, 0, 0, 0.1, 0, 0.3], SurfaceRadius=0.05, InfluenceRadius=0.15)
     nodes["HybridTreeCurveSkeletons"] = make["HybridTreeCurveSkeletons"](
         Input=simple.PolyLineSource(Points=[0, 0, 0, 1, 0, 0, 1, 1, 0]))
+    nodes["HybridTreeSkeletonEditor"] = make["HybridTreeSkeletonEditor"]()
+    nodes["HybridTreeSubdivisionSkeleton"] = make["HybridTreeSubdivisionSkeleton"](
+        Input=nodes["HybridTreeSkeletonEditor"], RadiusArray="Radius")
     nodes["HybridTreePolygonFromOutline"] = make["HybridTreePolygonFromOutline"](
         Input=simple.PolyLineSource(Points=[0, 0, 0, 1, 0, 0, 1, 1, 0, 0.5, 0.3, 0], Closed=1))
     nodes["HybridTreeProbe"] = make["HybridTreeProbe"](Tree=nodes["HybridTreeBoolean"], Points=simple.Wavelet(
@@ -139,6 +142,10 @@ def main():
         data = plugin.run(proxy)
         if name == "HybridTreeProbe":
             check_probe(data)
+            continue
+        if name == "HybridTreeSkeletonEditor":  # draws a skeleton, and is no node
+            assert (data.GetNumberOfLines(), data.GetNumberOfPolys()) == (2, 2)
+            assert plugin.run(proxy, port=1).GetNumberOfPolys() == 32
             continue
         plugin.check_solid(data, name)
         volumes[name] = plugin.volume(data)

@@ -29,6 +29,8 @@ PROXIES = {  # name: group. The label is the name with its words apart.
     "HybridTreeSurfaceOfRevolution": "sources",
     "HybridTreeCurveSkeletons": "filters",
     "HybridTreePolygonFromOutline": "filters",
+    "HybridTreeSkeletonEditor": "sources",
+    "HybridTreeSubdivisionSkeleton": "filters",
     "HybridTreeMeshField": "filters",
     "HybridTreeBlend": "filters",
     "HybridTreeLocalBlend": "filters",

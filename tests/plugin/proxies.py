@@ -36,6 +36,10 @@ NAMES = {
     "HybridTreeSurfaceOfRevolution": FIELD
     | {"Points", "Kind", "Closed", "Origin", "Axis", "Solid", "LevelOfDetail"},
     "HybridTreeCurveSkeletons": FIELD | {"Input", "RadiusArray", "As", "Blend", "LevelOfDetail"},
+    "HybridTreeSkeletonEditor": {"Points", "Radii", "Segments", "Triangles", "Scheme", "Level"},
+    "HybridTreeSubdivisionSkeleton": COMMON
+    | {"Input", "RadiusArray", "Radius", "RadiusInterpolation", "Scheme", "Level", "Blending", "BlendDistance", "InfluenceRatio", "Exponent", "Kernel",
+        "Negative", "Refinement", "Preview"},
     "HybridTreeMeshField": (FIELD - {"SurfaceRadius"}) | {"Input"},
     "HybridTreeBlend": BLEND | {"Input"},
     "HybridTreeLocalBlend": BLEND | {"A", "B", "Region"},
@@ -86,6 +90,8 @@ def other_value(prop):
     """A list of elements that differs from the present one and is in the domain."""
     if prop.FindDomain("vtkSMBooleanDomain") or prop.FindDomain("vtkSMEnumerationDomain"):
         return [1 - prop.GetElement(0)]
+    if prop.GetRepeatCommand() and prop.IsA("vtkSMIntVectorProperty"):
+        return [0, 3, 1, 4, 1, 5]
     if prop.GetRepeatCommand():
         return [0, 1, 1, 0.25, -0.5, 0.75]
     if prop.IsA("vtkSMStringVectorProperty"):
