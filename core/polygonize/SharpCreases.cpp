@@ -60,6 +60,11 @@ public:
       return 0;
     }
     points_ = findCreasePoints(field_, lattice_, mesh_, loops_, kLeastNear, progress_);
+    if (std::none_of(
+          points_.begin(), points_.end(), [](const CreasePoint& point) { return point.found; }))
+    {
+      return 0;
+    }
     firstPoint_ = mesh_.points.size();
     for (std::size_t k = 0; k < loops_.size(); ++k)
     {
