@@ -12,7 +12,8 @@
 //
 //   LocalBlendBenchmark [threads, default 2] [rounds, default 5]
 //   LocalBlendBenchmark pairs FILE
-//   LocalBlendBenchmark edits [threads] [rounds]     the edits alone, for a profiler
+//   LocalBlendBenchmark edits|global|node-based|primitive-based|automatic [threads] [rounds]
+//     one of them alone, for a profiler
 #include "benchmarks/support/BenchmarkMesh.h"
 #include "benchmarks/support/EmbreeDistance.h"
 #include "core/base/Parallel.h"
@@ -30,6 +31,7 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <fstream>
 #include <functional>
 #include <limits>
@@ -46,7 +48,7 @@ constexpr double kInfluence = 0.05;
 
 const std::array<BlendMethod, 4> kMethods = { BlendMethod::Global, BlendMethod::NodeBased,
   BlendMethod::PrimitiveBased, BlendMethod::Automatic };
-const std::array<const char*, 4> kNames = { "global", "node-based", "primitive-based",
+const std::array<std::string, 4> kNames = { "global", "node-based", "primitive-based",
   "automatic" };
 
 double seconds(const std::function<void()>& work)
@@ -54,6 +56,14 @@ double seconds(const std::function<void()>& work)
   const auto start = std::chrono::steady_clock::now();
   work();
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// Of all threads: what a busy machine cannot change.
+double processorSeconds(const std::function<void()>& work)
+{
+  const std::clock_t start = std::clock();
+  work();
+  return double(std::clock() - start) / CLOCKS_PER_SEC;
 }
 
 double median(std::vector<double> times)
@@ -148,46 +158,74 @@ double denseGrid(const TriangleMesh& mesh, int threads, double reach, int stride
 }
 
 /// The last ball is dragged along the surface.
-std::vector<double> timesOfEdits(const NodePtr& scan, const TriangleMesh& mesh, double edge)
+struct Edits
+{
+  std::vector<double> times;
+  std::vector<double> processorTimes;
+};
+
+Edits timesOfEdits(const NodePtr& scan, const TriangleMesh& mesh, double edge)
 {
   const std::vector<NodePtr> parts = additions(mesh);
-  std::vector<double> times;
+  Edits edits;
   for (int k = 0; k < 50; ++k)
   {
     std::vector<NodePtr> edited = parts;
     edited.back() = additions(mesh, 0.0005 * k).back();
-    const NodePtr node = chain(scan, edited, BlendMethod::PrimitiveBased);
-    times.push_back(seconds([&] { node->mesh(edge); }));
+    edits.processorTimes.push_back(processorSeconds(
+      [&]
+      {
+        const NodePtr node = chain(scan, edited, BlendMethod::PrimitiveBased);
+        edits.times.push_back(seconds([&] { node->mesh(edge); }));
+      }));
   }
-  return times;
+  return edits;
 }
 
-void reportEdits(
-  const NodePtr& scan, const TriangleMesh& mesh, double edge, double first, double global)
+void reportEdits(const NodePtr& scan, const TriangleMesh& mesh, double edge, double first,
+  double firstProcessor, double global)
 {
-  const std::vector<double> times = timesOfEdits(scan, mesh, edge);
-  const double middle = median(times);
-  const double slowest = *std::max_element(times.begin(), times.end());
+  const Edits edits = timesOfEdits(scan, mesh, edge);
+  const double middle = median(edits.times);
+  const double slowest = *std::max_element(edits.times.begin(), edits.times.end());
+  const double processor = median(edits.processorTimes);
   std::printf(
     "first polygonization, cold: %.1f ms; global, warm: %.1f ms\n", 1e3 * first, 1e3 * global);
   std::printf("50 edits: median %.1f ms, slowest %.1f ms: 1/%.0f and 1/%.0f of the first, "
               "1/%.0f and 1/%.0f of a global one\n",
     1e3 * middle, 1e3 * slowest, first / middle, first / slowest, global / middle,
     global / slowest);
+  std::printf("time of all processors: first %.1f ms, edits %.1f ms: 1/%.0f\n",
+    1e3 * firstProcessor, 1e3 * processor, firstProcessor / processor);
 }
 
-/// For a profiler: edits alone, over and over.
-void editsOnly(int threads, int rounds)
+/// For a profiler: one thing over and over.
+void alone(const std::string& what, int threads, int rounds)
 {
   setThreadCount(threads);
   const MeshPtr mesh = benchmark::benchmarkMesh("igea.ply", 268000);
   const double edge = 1.0 / (kGrid - 1);
   const NodePtr scan = scanLeaf(mesh);
+  const std::vector<NodePtr> parts = additions(*mesh);
   for (int round = 0; round < rounds; ++round)
   {
-    const std::vector<double> times = timesOfEdits(scan, *mesh, edge);
-    std::printf("median %.1f ms, slowest %.1f ms\n", 1e3 * median(times),
-      1e3 * *std::max_element(times.begin(), times.end()));
+    if (what == "edits")
+    {
+      const Edits edits = timesOfEdits(scan, *mesh, edge);
+      std::printf("median %.1f ms, of all processors %.1f ms\n", 1e3 * median(edits.times),
+        1e3 * median(edits.processorTimes));
+      continue;
+    }
+    const auto named = std::find(kNames.begin(), kNames.end(), what);
+    if (named == kNames.end())
+    {
+      std::printf("There is no %s.\n", what.c_str());
+      return;
+    }
+    const BlendMethod method = kMethods[static_cast<std::size_t>(named - kNames.begin())];
+    forgetBlends();
+    const double time = processorSeconds([&] { chain(scan, parts, method)->mesh(edge); });
+    std::printf("%s: %.1f ms of all processors\n", what.c_str(), 1e3 * time);
   }
 }
 
@@ -200,20 +238,27 @@ void table3(int threads, int rounds)
 
   // Cold: hierarchy, normals, checks and the leaf's mesh are made inside the time.
   NodePtr scan;
+  double firstProcessor = 0.0;
   const double first = seconds(
     [&]
     {
-      scan = scanLeaf(std::make_shared<const TriangleMesh>(*mesh));
-      chain(scan, parts, BlendMethod::PrimitiveBased)->mesh(edge);
+      firstProcessor = processorSeconds(
+        [&]
+        {
+          scan = scanLeaf(std::make_shared<const TriangleMesh>(*mesh));
+          chain(scan, parts, BlendMethod::PrimitiveBased)->mesh(edge);
+        });
     });
-  std::array<std::vector<double>, 4> times;
+  std::array<std::vector<double>, 4> times, processorTimes;
   std::array<MeshPtr, 4> meshes;
   for (int round = 0; round < rounds; ++round)
   {
     for (std::size_t m = 0; m < kMethods.size(); ++m)
     {
+      forgetBlends(); // nothing is left from before
       const NodePtr node = chain(scan, parts, kMethods[m]);
-      times[m].push_back(seconds([&] { meshes[m] = node->mesh(edge); }));
+      processorTimes[m].push_back(processorSeconds(
+        [&] { times[m].push_back(seconds([&] { meshes[m] = node->mesh(edge); })); }));
     }
   }
   const double global = median(times[0]);
@@ -227,10 +272,11 @@ void table3(int threads, int rounds)
     const std::string samples = kMethods[m] == BlendMethod::NodeBased
       ? "(flat " + std::to_string(report.samplePoints) + ")"
       : std::to_string(report.samplePoints);
-    std::printf(
-      "%-16s %9.1f ms  %6.1f times as fast  samples %s (1/%.0f)  %zu triangles, %zu kept, "
-      "%d round%s, %s\n",
-      kNames[m], 1e3 * median(times[m]), global / median(times[m]), samples.c_str(),
+    std::printf("%-16s %9.1f ms  %6.1f times as fast (%.1f by processor time)  samples %s (1/%.0f) "
+                " %zu triangles, %zu kept, "
+                "%d round%s, %s\n",
+      kNames[m].c_str(), 1e3 * median(times[m]), global / median(times[m]),
+      median(processorTimes[0]) / median(processorTimes[m]), samples.c_str(),
       double(allSamples) / double(std::max<std::size_t>(report.samplePoints, 1)),
       meshes[m]->triangles.size(), report.keptTriangles, report.rounds,
       report.rounds == 1 ? "" : "s",
@@ -238,7 +284,7 @@ void table3(int threads, int rounds)
   }
   const double local = median(times[2]);
 
-  reportEdits(scan, *mesh, edge, first, global);
+  reportEdits(scan, *mesh, edge, first, firstProcessor, global);
 
   const double bounded = denseGrid(*mesh, threads, kInfluence, 4);
   std::printf("dense %d^3 grid by Embree within R: %.1f s, %.0f times the primitive-based mesh\n",
@@ -300,9 +346,10 @@ int main(int argc, char** argv)
     pairs(argv[2]);
     return 0;
   }
-  if (argc > 1 && std::string(argv[1]) == "edits")
+  if (argc > 1 && std::isalpha(argv[1][0]))
   {
-    editsOnly(argc > 2 ? std::max(1, std::atoi(argv[2])) : 2, argc > 3 ? std::atoi(argv[3]) : 1);
+    alone(argv[1], argc > 2 ? std::max(1, std::atoi(argv[2])) : 2,
+      argc > 3 ? std::max(1, std::atoi(argv[3])) : 1);
     return 0;
   }
   table3(argc > 1 ? std::max(1, std::atoi(argv[1])) : 2, argc > 2 ? std::atoi(argv[2]) : 5);

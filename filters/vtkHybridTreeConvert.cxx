@@ -117,9 +117,25 @@ private:
   vtkTypeUInt64 count_ = 0;
 };
 
+/// Cells straight from the arrays of this module's own outputs; others by VTK's iterator, which
+/// takes as long as all the rest.
 template <class Body>
 void forEachCell(vtkCellArray* cells, Body&& body)
 {
+  auto* offsets = vtkTypeInt32Array::SafeDownCast(cells->GetOffsetsArray());
+  auto* corners = vtkTypeInt32Array::SafeDownCast(cells->GetConnectivityArray());
+  if (offsets && corners && cells->GetNumberOfCells() > 0)
+  {
+    const vtkTypeInt32* begin = offsets->GetPointer(0);
+    const vtkTypeInt32* corner = corners->GetPointer(0);
+    std::vector<vtkIdType> points;
+    for (vtkIdType cell = 0; cell < cells->GetNumberOfCells(); ++cell)
+    {
+      points.assign(corner + begin[cell], corner + begin[cell + 1]);
+      body(static_cast<vtkIdType>(points.size()), points.data());
+    }
+    return;
+  }
   const auto iterator = vtk::TakeSmartPointer(cells->NewIterator());
   for (iterator->GoToFirstCell(); !iterator->IsDoneWithTraversal(); iterator->GoToNextCell())
   {
@@ -286,9 +302,10 @@ vtkSmartPointer<vtkCellArray> trianglesOf(const MeshPtr& mesh)
   const std::size_t count = mesh->triangles.size();
   vtkNew<vtkTypeInt32Array> offsets;
   offsets->SetNumberOfValues(static_cast<vtkIdType>(count) + 1);
+  vtkTypeInt32* const offset = offsets->GetPointer(0);
   for (std::size_t t = 0; t <= count; ++t)
   {
-    offsets->SetValue(static_cast<vtkIdType>(t), static_cast<vtkTypeInt32>(3 * t));
+    offset[t] = static_cast<vtkTypeInt32>(3 * t);
   }
   auto cells = vtkSmartPointer<vtkCellArray>::New();
   const auto corners =

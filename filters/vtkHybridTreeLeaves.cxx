@@ -71,7 +71,7 @@ Leaf leafOf(const Node& node)
   Leaf leaf;
   leaf.name = kindName(node);
   leaf.mesh = node.leafMesh();
-  leaf.hash = leaf.mesh ? contentHashText(*leaf.mesh) : "";
+  leaf.hash = leaf.mesh ? contentHashText(leaf.mesh) : "";
   return leaf;
 }
 
@@ -407,7 +407,7 @@ MeshLookup meshesIn(vtkFieldData* data)
 
 LeafArrays arraysOf(vtkPolyData* input, const ConvertedMesh& leaf)
 {
-  const std::string hash = contentHashText(*leaf.repaired.mesh) + ":";
+  const std::string hash = contentHashText(leaf.repaired.mesh) + ":";
   LeafArrays arrays;
   gather(input->GetPointData(), pointRows(leaf.repaired), kPointData + hash, arrays);
   vtkNew<vtkIdList> cells;

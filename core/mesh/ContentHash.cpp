@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/mesh/ContentHash.h"
 
+#include "core/mesh/PerMesh.h"
+
 #include <cstddef>
 #include <cstring>
 
@@ -82,6 +84,14 @@ std::string contentHashText(const TriangleMesh& mesh)
     text[k] = digits[hash & 15u];
   }
   return text;
+}
+
+std::string contentHashText(const MeshPtr& mesh)
+{
+  static PerMesh<std::string> known;
+  return *known.of(mesh,
+    [](const TriangleMesh& object)
+    { return std::make_shared<const std::string>(contentHashText(object)); });
 }
 
 } // namespace hybridtree

@@ -14,7 +14,11 @@ namespace hybridtree
 /// from an unchanged one, it does not defend against forgery.
 std::uint64_t contentHash(const TriangleMesh& mesh);
 
-/// The hash as 16 lower-case hexadecimal digits.
+///@{
+/// The hash as 16 lower-case hexadecimal digits; of a shared mesh, which nobody changes, found
+/// once.
 std::string contentHashText(const TriangleMesh& mesh);
+std::string contentHashText(const MeshPtr& mesh);
+///@}
 
 } // namespace hybridtree

@@ -3,6 +3,7 @@
 
 #include "core/geometry/BoxUnion.h"
 #include "core/mesh/SmoothNormals.h"
+#include "core/nodes/BlendCost.h"
 #include "core/nodes/BlendSource.h"
 #include "core/nodes/LatticeMesh.h"
 #include "core/nodes/TriangleSources.h"
@@ -10,6 +11,8 @@
 #include "core/stitch/Stitch.h"
 
 #include <algorithm>
+#include <limits>
+#include <optional>
 
 namespace hybridtree
 {
@@ -76,25 +79,34 @@ public:
   }
 };
 
-/// Whether keeping the parts' triangles is faster than sampling where they are. With fields of
-/// meshes a point of the patch, with the cut and the joint, costs about twice as much as one of the
-/// whole lattice; fields of skeletons cost next to nothing, and cut and joint count for all.
-bool pays(
-  const Node& blend, const std::vector<KeptPart>& kept, const CellSet& cells, double cellSize)
+constexpr std::size_t kAllCells = std::numeric_limits<std::size_t>::max();
+
+/// Area of what is kept, in squared cells.
+double squaresOf(const std::vector<KeptPart>& kept, double cellSize)
 {
-  // Measured on scans and round shapes: marked cells per point made in them, and points of a
-  // lattice per squared cell size of surface.
-  constexpr double kCellsPerPoint = 6.0;
-  constexpr double kPointsPerSquare = 1.4;
-  const double costOfPatch = blend.isFaceted() ? 2.2 : 40.0;
   double area = 0.0;
   for (const KeptPart& part : kept)
   {
     area += KeptMesh::of(part.mesh)->area();
   }
-  const double all = kPointsPerSquare * area / (cellSize * cellSize);
-  const double made = static_cast<double>(cells.size()) / kCellsPerPoint;
-  return costOfPatch * made < std::max(all, made);
+  return area / (cellSize * cellSize);
+}
+
+/// The same by the sides of boxes, before there are meshes. A ball has half of that.
+double squaresOf(const std::vector<MarkTerm>& terms, double cellSize)
+{
+  constexpr double kShareOfBox = 0.55;
+  double area = 0.0;
+  for (const MarkTerm& term : terms)
+  {
+    const Box3 box = term.kept ? term.node->surfaceBounds() : Box3();
+    if (!box.isEmpty())
+    {
+      const Vec3 side = box.sizes();
+      area += 2.0 * kShareOfBox * (side.x() * side.y() + side.y() * side.z() + side.z() * side.x());
+    }
+  }
+  return area / (cellSize * cellSize);
 }
 
 TriangleMesh wholeLattice(
@@ -267,26 +279,6 @@ double ratioOf(std::size_t part, const std::vector<Box3>& boxes)
   return overlapRatio(boxes[part], others);
 }
 
-/// A first glance, before anything is meshed or marked: where no part is a mesh, only parts that
-/// hardly meet are worth it.
-bool mayPay(const Node& blend, const std::vector<BlendPart>& parts, const BlendOptions& options)
-{
-  if (options.method != BlendMethod::Automatic || blend.isFaceted())
-  {
-    return true;
-  }
-  constexpr double kHardlyMeet = 0.1;
-  const std::vector<Box3> boxes = influenceBoxes(parts);
-  for (std::size_t k = 0; k < boxes.size(); ++k)
-  {
-    if (ratioOf(k, boxes) > kHardlyMeet)
-    {
-      return false;
-    }
-  }
-  return true;
-}
-
 std::vector<MarkTerm> termsOf(const std::vector<BlendPart>& parts, double threshold)
 {
   const std::vector<Box3> boxes = influenceBoxes(parts);
@@ -317,38 +309,60 @@ std::vector<std::string> MeshWarnings::all() const
   return warnings_;
 }
 
-TriangleMesh blendMesh(const Node& blend, std::vector<BlendPart> parts, const BlendOptions& options,
-  double edgeLength, BlendMeshReport& report, const Progress& progress)
+namespace
 {
-  report = {};
-  std::sort(parts.begin(), parts.end(),
-    [](const BlendPart& a, const BlendPart& b) { return a.firstLeaf < b.firstLeaf; });
-  if (blend.isNegative())
+
+/// The way from parts to a mesh, which is the same for all blends.
+TriangleMesh meshByParts(const Node& blend, const std::vector<BlendPart>& parts,
+  std::vector<MarkTerm> terms, const Interaction& interaction, const IslandField& field,
+  const BlendOptions& options, double edgeLength, BlendMeshReport& report, const Progress& progress)
+{
+  report.method = options.method;
+  const bool choose = options.method == BlendMethod::Automatic;
+  const BlendCost cost(blend.isFaceted());
+  const MemoryBudget budget{ kMaxBytes, edgeLength };
+  const CellGrid grid = CellGrid::ofLevel(edgeLength, blend.depth());
+  const auto mark = [&](std::size_t mostCells)
   {
-    return {};
-  }
-  if (options.method == BlendMethod::Global || !mayPay(blend, parts, options))
+    return markedCells(
+      terms, interaction, grid, budget, mostCells, ProgressPart(progress, 0.3, 0.4));
+  };
+  // Skeletons are sampled whole in no time: there the marks are counted before anything is meshed.
+  if (choose && !blend.isFaceted() && !mark(cost.mostCells(squaresOf(terms, edgeLength))))
   {
     return wholeLattice(blend, edgeLength, report, progress);
   }
-  report.method = options.method;
-  std::vector<MarkTerm> terms = termsOf(parts, options.overlapThreshold);
   const std::vector<KeptPart> kept =
     keptMeshes(parts, terms, edgeLength, ProgressPart(progress, 0.0, 0.3));
   if (kept.empty())
   {
     return wholeLattice(blend, edgeLength, report, ProgressPart(progress, 0.3, 1.0));
   }
-  const MemoryBudget budget{ kMaxBytes, edgeLength };
-  const CellGrid grid = CellGrid::ofLevel(edgeLength, blend.depth());
-  CellSet cells =
-    markedCells(terms, SumInteraction(), grid, budget, ProgressPart(progress, 0.3, 0.4));
-  if (options.method == BlendMethod::Automatic && !pays(blend, kept, cells, edgeLength))
+  std::optional<CellSet> cells =
+    mark(choose ? cost.mostCells(squaresOf(kept, edgeLength)) : kAllCells);
+  const ProgressPart rest(progress, 0.4, 1.0);
+  return cells ? stitchOver(blend, field, kept, std::move(*cells), grid, report, rest)
+               : wholeLattice(blend, edgeLength, report, rest);
+}
+
+} // namespace
+
+TriangleMesh blendMesh(const Node& blend, std::vector<BlendPart> parts, const BlendOptions& options,
+  double edgeLength, BlendMeshReport& report, const Progress& progress)
+{
+  report = {};
+  if (blend.isNegative())
   {
-    return wholeLattice(blend, edgeLength, report, ProgressPart(progress, 0.4, 1.0));
+    return {};
   }
-  return stitchOver(blend, SumIslandField(blend, parts), kept, std::move(cells), grid, report,
-    ProgressPart(progress, 0.4, 1.0));
+  if (options.method == BlendMethod::Global)
+  {
+    return wholeLattice(blend, edgeLength, report, progress);
+  }
+  std::sort(parts.begin(), parts.end(),
+    [](const BlendPart& a, const BlendPart& b) { return a.firstLeaf < b.firstLeaf; });
+  return meshByParts(blend, parts, termsOf(parts, options.overlapThreshold), SumInteraction(),
+    SumIslandField(blend, parts), options, edgeLength, report, progress);
 }
 
 TriangleMesh localBlendMesh(const Node& blend, const LocalBlendParts& local,
@@ -359,32 +373,16 @@ TriangleMesh localBlendMesh(const Node& blend, const LocalBlendParts& local,
   {
     return {};
   }
-  if (options.method == BlendMethod::Global ||
-    (options.method == BlendMethod::Automatic && !blend.isFaceted()))
+  if (options.method == BlendMethod::Global)
   {
     return wholeLattice(blend, edgeLength, report, progress);
   }
-  report.method = options.method;
-  std::vector<MarkTerm> terms{ { local.a, false }, { local.b, false }, { local.region, false },
-    { local.unionOfBoth, true } };
+  const std::vector<MarkTerm> terms{ { local.a, false }, { local.b, false },
+    { local.region, false }, { local.unionOfBoth, true } };
   const std::vector<BlendPart> parts{ { local.a }, { local.b }, { local.region },
     { local.unionOfBoth } };
-  const std::vector<KeptPart> kept =
-    keptMeshes(parts, terms, edgeLength, ProgressPart(progress, 0.0, 0.3));
-  if (kept.empty())
-  {
-    return wholeLattice(blend, edgeLength, report, ProgressPart(progress, 0.3, 1.0));
-  }
-  const MemoryBudget budget{ kMaxBytes, edgeLength };
-  const CellGrid grid = CellGrid::ofLevel(edgeLength, blend.depth());
-  CellSet cells =
-    markedCells(terms, LocalInteraction(), grid, budget, ProgressPart(progress, 0.3, 0.4));
-  if (options.method == BlendMethod::Automatic && !pays(blend, kept, cells, edgeLength))
-  {
-    return wholeLattice(blend, edgeLength, report, ProgressPart(progress, 0.4, 1.0));
-  }
-  return stitchOver(blend, LocalIslandField(blend, local), kept, std::move(cells), grid, report,
-    ProgressPart(progress, 0.4, 1.0));
+  return meshByParts(blend, parts, terms, LocalInteraction(), LocalIslandField(blend, local),
+    options, edgeLength, report, progress);
 }
 
 void forgetBlends()

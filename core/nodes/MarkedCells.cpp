@@ -84,12 +84,17 @@ class Marker
 {
 public:
   Marker(const std::vector<MarkTerm>& terms, const Interaction& interaction, const CellGrid& grid,
-    const MemoryBudget& budget, const Progress& progress)
-    : terms_(terms), interaction_(interaction), grid_(grid), budget_(budget), progress_(progress)
+    const MemoryBudget& budget, std::size_t mostCells, const Progress& progress)
+    : terms_(terms)
+    , interaction_(interaction)
+    , grid_(grid)
+    , budget_(budget)
+    , mostCells_(mostCells)
+    , progress_(progress)
   {
   }
 
-  CellSet run()
+  std::optional<CellSet> run()
   {
     Block root = this->rootBlock();
     if (root.side > 0)
@@ -106,6 +111,10 @@ public:
           marks[k] = this->marksOf(std::move(units_[k]));
         }
       });
+    if (this->areTooMany())
+    {
+      return std::nullopt;
+    }
     CellSet cells;
     for (const auto& unit : marks)
     {
@@ -207,13 +216,26 @@ private:
     std::shared_ptr<const UnitMarks> marks = store().find(key);
     if (!marks)
     {
+      std::stable_partition(unit.reach.begin(), unit.reach.end(),
+        [&](const Reach& reach) { return !terms_[reach.term].node->isFaceted(); });
       CellSet cells;
       std::vector<FieldSourcePtr> ancestors;
       this->markBlock(std::move(unit), ancestors, cells);
+      if (this->areTooMany())
+      {
+        return nullptr;
+      }
       marks = std::make_shared<const UnitMarks>(cells.bricks());
       store().keep(key, marks,
         sizeof key + key.terms.size() * sizeof(Dependency) +
           marks->size() * sizeof(CellSet::Brick));
+    }
+    else
+    {
+      for (const CellSet::Brick& brick : *marks)
+      {
+        count_ += brick.size();
+      }
     }
     this->checkBudget(bricks_ += marks->size());
     return marks;
@@ -241,8 +263,14 @@ private:
     std::vector<Interval> ranges;
     std::vector<Reach> left;
     bool surface = !forSurface;
-    for (Reach& reach : block.reach)
+    bool dropped = false;
+    for (std::size_t k = 0; k < block.reach.size(); ++k)
     {
+      Reach& reach = block.reach[k];
+      if (dropped && terms_[reach.term].node->isFaceted() && !this->mayMark(possible, block, k))
+      {
+        return Answer::None; // whatever the meshes say, which takes long
+      }
       if (!forSurface && reach.certain)
       {
         possible.push_back(reach.term);
@@ -253,6 +281,7 @@ private:
       const Interval range = reach.source->range(box);
       if (range.min == 0.0 && range.max == 0.0)
       {
+        dropped = true;
         continue;
       }
       reach.certain = range.min > 0.0 || range.max < 0.0;
@@ -276,6 +305,16 @@ private:
       return Answer::None;
     }
     return interaction_.marks(terms_, certain) ? Answer::All : Answer::Open;
+  }
+
+  /// With all terms from number `next` on.
+  bool mayMark(std::vector<int> present, const Block& block, std::size_t next) const
+  {
+    for (std::size_t k = next; k < block.reach.size(); ++k)
+    {
+      present.push_back(block.reach[k].term);
+    }
+    return interaction_.marks(terms_, present);
   }
 
   static bool crosses(const Interval& range)
@@ -320,8 +359,14 @@ private:
     block.reach = std::move(left);
   }
 
-  void markBlock(Block block, std::vector<FieldSourcePtr>& ancestors, CellSet& cells) const
+  bool areTooMany() const { return count_ > mostCells_; }
+
+  void markBlock(Block block, std::vector<FieldSourcePtr>& ancestors, CellSet& cells)
   {
+    if (this->areTooMany())
+    {
+      return;
+    }
     const Answer answer = this->look(block);
     if (answer == Answer::None)
     {
@@ -330,6 +375,7 @@ private:
     if (block.side == 1 || (answer == Answer::All && block.side <= kSurfaceBlock))
     {
       cells.insertBlock(block.low, static_cast<int>(block.side));
+      count_ += static_cast<std::size_t>(block.side * block.side * block.side);
       return;
     }
     if (block.side >= kBrickSide)
@@ -344,17 +390,20 @@ private:
   const Interaction& interaction_;
   const CellGrid grid_;
   const MemoryBudget& budget_;
+  const std::size_t mostCells_;
   const Progress& progress_;
   std::vector<Block> units_;
+  std::atomic<std::size_t> count_{ 0 }; ///< of cells
   std::atomic<std::size_t> bricks_{ 0 };
 };
 
 } // namespace
 
-CellSet markedCells(const std::vector<MarkTerm>& terms, const Interaction& interaction,
-  const CellGrid& grid, const MemoryBudget& budget, const Progress& progress)
+std::optional<CellSet> markedCells(const std::vector<MarkTerm>& terms,
+  const Interaction& interaction, const CellGrid& grid, const MemoryBudget& budget,
+  std::size_t mostCells, const Progress& progress)
 {
-  return Marker(terms, interaction, grid, budget, progress).run();
+  return Marker(terms, interaction, grid, budget, mostCells, progress).run();
 }
 
 void forgetMarks()

@@ -6,6 +6,8 @@
 #include "core/stitch/CellGrid.h"
 #include "core/stitch/CellSet.h"
 
+#include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace hybridtree
@@ -44,9 +46,12 @@ public:
 /// of the lattice, halved down to single cells where that is open, so that a limb that lies slant
 /// does not mark its box. Sorted; the same for any number of threads. Blocks of the lattice that
 /// the same terms reach as in an earlier call are not looked at again.
-/// \throws TooLarge when the marked bricks pass the budget; Cancelled.
-CellSet markedCells(const std::vector<MarkTerm>& terms, const Interaction& interaction,
-  const CellGrid& grid, const MemoryBudget& budget, const Progress& progress = Progress::none());
+/// \param mostCells the search ends where there are more.
+/// \return nothing when there are more. \throws TooLarge when the marked bricks pass the budget;
+/// Cancelled.
+std::optional<CellSet> markedCells(const std::vector<MarkTerm>& terms,
+  const Interaction& interaction, const CellGrid& grid, const MemoryBudget& budget,
+  std::size_t mostCells, const Progress& progress = Progress::none());
 
 /// Forgets the earlier calls; for tests and benchmarks.
 void forgetMarks();

@@ -50,7 +50,7 @@ public:
   Parameters parameters() const override
   {
     Parameters parameters;
-    parameters.set("mesh", contentHashText(*field_.mesh()).c_str());
+    parameters.set("mesh", contentHashText(field_.mesh()).c_str());
     parameters.set("maximumField", field_.maximumField());
     parameters.set("influenceRadius", field_.influenceRadius());
     parameters.set("exponent", field_.exponent());

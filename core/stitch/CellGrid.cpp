@@ -22,14 +22,6 @@ CellGrid CellGrid::ofLevel(double cellSize, int level)
   return grid;
 }
 
-std::int64_t CellGrid::slab(int axis, double coordinate) const
-{
-  auto index = static_cast<std::int64_t>(std::floor((coordinate - origin[axis]) / cellSize));
-  index -= this->plane(axis, index) > coordinate ? 1 : 0;
-  index += this->plane(axis, index + 1) <= coordinate ? 1 : 0;
-  return index;
-}
-
 Box3 CellGrid::boxOf(const Index3& low, double side, double margin) const
 {
   Box3 box;

@@ -3,8 +3,17 @@
 
 #include "core/polygonize/Lattice.h"
 
+#include <cstdint>
+
 namespace hybridtree
 {
+
+/// As floor(), of numbers that fit; several times as fast where the processor cannot round.
+inline std::int64_t roundedDown(double value)
+{
+  const auto truncated = static_cast<std::int64_t>(value);
+  return truncated - (value < static_cast<double>(truncated) ? 1 : 0);
+}
 
 /// Cells of side `cellSize` over the whole world, the same for all that is made at one level of a
 /// tree.
@@ -27,7 +36,13 @@ struct CellGrid
   }
 
   /// The cell in which a coordinate lies; one in a plane is in the cell above.
-  std::int64_t slab(int axis, double coordinate) const;
+  std::int64_t slab(int axis, double coordinate) const
+  {
+    std::int64_t index = roundedDown((coordinate - origin[axis]) / cellSize);
+    index -= this->plane(axis, index) > coordinate ? 1 : 0;
+    index += this->plane(axis, index + 1) <= coordinate ? 1 : 0;
+    return index;
+  }
   Index3 cellAt(const Vec3& point) const
   {
     return { this->slab(0, point[0]), this->slab(1, point[1]), this->slab(2, point[2]) };

@@ -41,18 +41,25 @@ int CellSet::lowestBit(std::uint64_t word)
   return bit;
 }
 
+std::size_t CellSet::Brick::size() const
+{
+  std::size_t count = 0;
+  for (std::uint64_t word : bits)
+  {
+    for (; word != 0; word &= word - 1)
+    {
+      ++count;
+    }
+  }
+  return count;
+}
+
 std::size_t CellSet::size() const
 {
   std::size_t count = 0;
   for (const Brick& brick : bricks_)
   {
-    for (std::uint64_t word : brick.bits)
-    {
-      for (; word != 0; word &= word - 1)
-      {
-        ++count;
-      }
-    }
+    count += brick.size();
   }
   return count;
 }

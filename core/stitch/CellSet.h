@@ -37,6 +37,7 @@ public:
     Index3 index{};
     BrickBits bits{}; ///< cell (x, y, z): bit 8 y + x of word z
 
+    std::size_t size() const;
     bool operator==(const Brick& other) const { return index == other.index && bits == other.bits; }
   };
 

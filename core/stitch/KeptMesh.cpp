@@ -3,9 +3,9 @@
 
 #include "core/base/Parallel.h"
 #include "core/mesh/MeshChecks.h"
+#include "core/mesh/PerMesh.h"
 
 #include <algorithm>
-#include <unordered_map>
 
 namespace hybridtree
 {
@@ -15,8 +15,17 @@ namespace
 constexpr std::int64_t kMostBlocks = 1 << 21;
 constexpr std::int64_t kLarge = 64; // blocks of a triangle
 constexpr std::size_t kGrain = 16384;
+constexpr double kSlack = 1e-6; // blocks, for rounding
 
-struct Blocks
+std::int64_t floorDivided(std::int64_t a, std::int64_t b)
+{
+  return a >= 0 ? a / b : ~(~a / b);
+}
+
+} // namespace
+
+/// Those that a box touches.
+struct TriangleBricks::Blocks
 {
   Index3 from{};
   Index3 to{};
@@ -43,13 +52,6 @@ struct Blocks
   }
 };
 
-std::int64_t floorDivided(std::int64_t a, std::int64_t b)
-{
-  return a >= 0 ? a / b : ~(~a / b);
-}
-
-} // namespace
-
 TriangleBricks::TriangleBricks(const TriangleMesh& mesh, const CellGrid& grid) : grid_(grid)
 {
   const Box3 bounds = mesh.bounds();
@@ -60,8 +62,8 @@ TriangleBricks::TriangleBricks(const TriangleMesh& mesh, const CellGrid& grid) :
   }
   for (;; bricksPerBlock_ *= 2)
   {
-    first_ = this->blockOf(brickOf(grid.cellAt(bounds.min())));
-    const Index3 last = this->blockOf(brickOf(grid.cellAt(bounds.max())));
+    first_ = this->blockAt(bounds.min(), -kSlack);
+    const Index3 last = this->blockAt(bounds.max(), kSlack);
     double count = 1.0;
     for (int axis = 0; axis < 3; ++axis)
     {
@@ -73,19 +75,7 @@ TriangleBricks::TriangleBricks(const TriangleMesh& mesh, const CellGrid& grid) :
       break;
     }
   }
-  std::vector<Blocks> blocks(mesh.triangles.size());
-  parallelFor(mesh.triangles.size(), kGrain,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (std::size_t t = begin; t < end; ++t)
-      {
-        const Triangle& c = mesh.triangles[t];
-        const Vec3 low = mesh.points[c[0]].cwiseMin(mesh.points[c[1]]).cwiseMin(mesh.points[c[2]]);
-        const Vec3 high = mesh.points[c[0]].cwiseMax(mesh.points[c[1]]).cwiseMax(mesh.points[c[2]]);
-        blocks[t] = { this->blockOf(brickOf(grid.cellAt(low))),
-          this->blockOf(brickOf(grid.cellAt(high))) };
-      }
-    });
+  const std::vector<Blocks> blocks = this->blocksOf(mesh);
   begin_.assign(static_cast<std::size_t>(size_[0] * size_[1] * size_[2]) + 1, 0);
   for (const Blocks& own : blocks)
   {
@@ -111,6 +101,50 @@ TriangleBricks::TriangleBricks(const TriangleMesh& mesh, const CellGrid& grid) :
     blocks[t].forEach(
       [&](const Index3& block) { triangles_[next[this->number(block)]++] = number; });
   }
+}
+
+std::vector<TriangleBricks::Blocks> TriangleBricks::blocksOf(const TriangleMesh& mesh) const
+{
+  std::vector<Blocks> ofPoints(mesh.points.size());
+  parallelFor(mesh.points.size(), kGrain,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t v = begin; v < end; ++v)
+      {
+        ofPoints[v] = { this->blockAt(mesh.points[v], -kSlack),
+          this->blockAt(mesh.points[v], kSlack) };
+      }
+    });
+  std::vector<Blocks> blocks(mesh.triangles.size());
+  parallelFor(mesh.triangles.size(), kGrain,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t t = begin; t < end; ++t)
+      {
+        blocks[t] = ofPoints[mesh.triangles[t][0]];
+        for (int k = 1; k < 3; ++k)
+        {
+          const Blocks& corner = ofPoints[mesh.triangles[t][k]];
+          for (int axis = 0; axis < 3; ++axis)
+          {
+            blocks[t].from[axis] = std::min(blocks[t].from[axis], corner.from[axis]);
+            blocks[t].to[axis] = std::max(blocks[t].to[axis], corner.to[axis]);
+          }
+        }
+      }
+    });
+  return blocks;
+}
+
+Index3 TriangleBricks::blockAt(const Vec3& point, double slack) const
+{
+  const double scale = 1.0 / (static_cast<double>(kBrickSide * bricksPerBlock_) * grid_.cellSize);
+  Index3 block{};
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    block[axis] = roundedDown((point[axis] - grid_.origin[axis]) * scale + slack);
+  }
+  return block;
 }
 
 Index3 TriangleBricks::blockOf(const Index3& brick) const
@@ -175,26 +209,9 @@ std::vector<std::int32_t> TriangleBricks::near(const std::vector<Vec3>& points) 
 
 std::shared_ptr<const KeptMesh> KeptMesh::of(const MeshPtr& mesh)
 {
-  struct Known
-  {
-    std::weak_ptr<const TriangleMesh> mesh;
-    std::shared_ptr<const KeptMesh> facts;
-  };
-  static std::mutex mutex;
-  static std::unordered_map<const TriangleMesh*, Known> known;
-  const std::lock_guard<std::mutex> lock(mutex);
-  const auto found = known.find(mesh.get());
-  if (found != known.end() && found->second.mesh.lock() == mesh)
-  {
-    return found->second.facts;
-  }
-  for (auto entry = known.begin(); entry != known.end();)
-  {
-    entry = entry->second.mesh.expired() ? known.erase(entry) : std::next(entry);
-  }
-  auto facts = std::make_shared<const KeptMesh>(*mesh);
-  known[mesh.get()] = { mesh, facts };
-  return facts;
+  static PerMesh<KeptMesh> known;
+  return known.of(
+    mesh, [](const TriangleMesh& object) { return std::make_shared<const KeptMesh>(object); });
 }
 
 bool KeptMesh::isSound() const

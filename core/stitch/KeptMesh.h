@@ -27,9 +27,13 @@ public:
   std::vector<std::int32_t> near(const std::vector<Vec3>& points) const;
 
 private:
+  struct Blocks;
+
+  std::vector<Blocks> blocksOf(const TriangleMesh& mesh) const;
   std::vector<std::int32_t> inBlocks(std::vector<Index3> bricks) const;
   std::int64_t number(const Index3& block) const;
   Index3 blockOf(const Index3& brick) const;
+  Index3 blockAt(const Vec3& point, double slack) const;
 
   CellGrid grid_;
   std::int64_t bricksPerBlock_ = 1; ///< along each axis; more than 1 where bricks are too many

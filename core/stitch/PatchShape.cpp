@@ -34,10 +34,14 @@ constexpr double kLongestSide = 1.6;    // cells, of a triangle that had shorter
 /// Cosine of the smallest angle: 0.5 at best, 1 without area.
 double shapeOf(const Vec3& a, const Vec3& b, const Vec3& c)
 {
-  double squared[3] = { (b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm() };
-  std::sort(squared, squared + 3);
-  const double scale = 2.0 * std::sqrt(squared[1]) * std::sqrt(squared[2]);
-  return scale > 0.0 ? (squared[1] + squared[2] - squared[0]) / scale : 1.0;
+  const double ab = (b - a).squaredNorm();
+  const double bc = (c - b).squaredNorm();
+  const double ca = (a - c).squaredNorm();
+  const double shortest = std::min(std::min(ab, bc), ca);
+  const double longest = std::max(std::max(ab, bc), ca);
+  const double middle = std::max(std::min(std::max(ab, bc), ca), std::min(ab, bc));
+  const double scale = 2.0 * std::sqrt(middle) * std::sqrt(longest);
+  return scale > 0.0 ? (middle + longest - shortest) / scale : 1.0;
 }
 
 /// 1 without area, 0 from a smallest angle of 30 degrees on. Its sum falls with every change.
@@ -66,6 +70,7 @@ public:
     , links_(mesh.triangles, mesh.points.size())
     , touched_(links_.triangleCount(), false)
     , waiting_(links_.triangleCount(), true)
+    , shapes_(links_.triangleCount(), -1.0)
   {
   }
 
@@ -86,8 +91,21 @@ private:
 
   double shape(std::size_t t) const
   {
-    const Triangle& c = links_.triangle(t);
-    return shapeOf(this->point(c[0]), this->point(c[1]), this->point(c[2]));
+    double& known = shapes_[t];
+    if (known < 0.0)
+    {
+      const Triangle& c = links_.triangle(t);
+      known = shapeOf(this->point(c[0]), this->point(c[1]), this->point(c[2]));
+    }
+    return known;
+  }
+
+  /// A triangle has other corners, or corners elsewhere.
+  void change(Index t)
+  {
+    shapes_[t] = -1.0;
+    touched_[t] = true;
+    waiting_[t] = true;
   }
   Vec3 normal(std::size_t t) const
   {
@@ -212,7 +230,7 @@ private:
       {
         const Index b = links_.to(h);
         const Index c = links_.opposite(h);
-        before += badness(this->shape(static_cast<std::size_t>(h / 3)));
+        before += badness(this->shape(h / 3));
         after += badness(shapeOf(target, this->point(b), this->point(c)));
         const Vec3 turned = normalOf(target, this->point(b), this->point(c));
         const Vec3 around = up + mesh_.normals[b] + mesh_.normals[c];
@@ -228,12 +246,7 @@ private:
     {
       mesh_.vertexOrigin[v] = {};
     }
-    links_.forEachLeaving(v,
-      [&](Index h)
-      {
-        touched_[h / 3] = true;
-        waiting_[h / 3] = true;
-      });
+    links_.forEachLeaving(v, [&](Index h) { this->change(h / 3); });
     return true;
   }
 
@@ -277,10 +290,8 @@ private:
     if (flip)
     {
       const Index twin = links_.twin(chosen);
-      touched_[chosen / 3] = true;
-      touched_[twin / 3] = true;
-      waiting_[chosen / 3] = true;
-      waiting_[twin / 3] = true;
+      this->change(chosen / 3);
+      this->change(twin / 3);
       const Index ends[2] = { links_.opposite(chosen), links_.opposite(twin) };
       links_.flip(chosen);
       for (const Index v : { from, to, ends[0], ends[1] })
@@ -289,12 +300,7 @@ private:
       }
       return true;
     }
-    links_.forEachLeaving(from,
-      [&](Index leaving)
-      {
-        touched_[leaving / 3] = true;
-        waiting_[leaving / 3] = true;
-      });
+    links_.forEachLeaving(from, [&](Index leaving) { this->change(leaving / 3); });
     links_.collapse(chosen);
     this->awaken(to);
     return true;
@@ -318,7 +324,7 @@ private:
       [&](Index leaving)
       {
         longest = std::max(longest, this->length(leaving));
-        before += badness(this->shape(static_cast<std::size_t>(leaving / 3)));
+        before += badness(this->shape(leaving / 3));
       });
     const Vec3& up = mesh_.normals[from];
     const double mostOff = (this->isCreasePoint(from) ? kMostOffCrease : kMostOff) * cellSize_;
@@ -375,15 +381,20 @@ private:
     const Vec3& b = this->point(ib);
     const Vec3& c = this->point(ic);
     const Vec3& d = this->point(id);
-    const double before = badness(shapeOf(a, b, c)) + badness(shapeOf(b, a, d));
+    const double shapes[2] = { this->shape(h / 3), this->shape(twin / 3) };
+    const double before = badness(shapes[0]) + badness(shapes[1]);
     const double after = badness(shapeOf(d, b, c)) + badness(shapeOf(c, a, d));
+    if (before - after <= kWorthIt)
+    {
+      return 0.0;
+    }
     if ((c - d).norm() > std::max(kLongestSide * cellSize_, (a - b).norm()))
     {
       return 0.0;
     }
     const Vec3 first = normalOf(a, b, c);
     const Vec3 second = normalOf(b, a, d);
-    const bool solid = shapeOf(a, b, c) < kSliver && shapeOf(b, a, d) < kSliver;
+    const bool solid = shapes[0] < kSliver && shapes[1] < kSliver;
     if (solid && first.dot(second) < kFlatEnough * first.norm() * second.norm())
     {
       return 0.0;
@@ -469,7 +480,8 @@ private:
   const double cellSize_;
   MeshLinks links_;
   std::vector<bool> touched_;
-  std::vector<bool> waiting_; ///< to be looked at
+  std::vector<bool> waiting_;          ///< to be looked at
+  mutable std::vector<double> shapes_; ///< negative: not known
 };
 
 } // namespace
