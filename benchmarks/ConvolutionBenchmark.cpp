@@ -163,7 +163,7 @@ void figure14(const char* name, const SkeletonGraph& graph, int level, int round
   {
     reach += 2.0 * radius / double(graph.radii.size());
   }
-  const Bricks bricks(mesh->points, 0.5 * reach);
+  const Bricks bricks(mesh->points, reach);
   VectorList gradient(bricks.size);
   std::vector<double> value(bricks.size);
   for (const KernelKind kernel : { KernelKind::Compact, KernelKind::Cauchy })

@@ -314,17 +314,6 @@ void validate(const BlendingControl& control)
   }
 }
 
-double BlendPieces::Place::distanceTo(std::int32_t other, double limit) const
-{
-  if (other == group)
-  {
-    return 0.0;
-  }
-  const auto found = std::lower_bound(distances.begin(), distances.end(), other,
-    [](const GroupDistance& near, std::int32_t value) { return near.group < value; });
-  return found != distances.end() && found->group == other ? found->distance : limit;
-}
-
 BlendPieces makeBlendPieces(const GroupedElements& elements, const BlendingControl& control)
 {
   return control.kind == BlendingKind::Paper

@@ -19,10 +19,7 @@ struct BlendPieces
   struct Place
   {
     std::int32_t group;
-    std::vector<GroupDistance> distances; ///< those below the limit, ascending by group
-
-    /// `limit` for groups that are not listed.
-    double distanceTo(std::int32_t other, double limit) const;
+    std::vector<GroupDistance> distances; ///< from other groups, those below the limit
   };
   std::vector<Place> segmentPlaces;
   std::vector<Place> trianglePlaces;

@@ -2,6 +2,7 @@
 #include "core/convolution/BlendSelector.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace hybridtree
 {
@@ -33,24 +34,16 @@ public:
   std::vector<BlendSelection::Cluster> clusters(const Box3& box)
   {
     std::vector<Groups> sets = this->groupSets();
+    this->findPieces(box);
+    if (sets.front() == groups_ && this->isPlain(groups_))
+    {
+      return {}; // no sum is larger than that of all
+    }
     this->dropSmall(box, sets);
-    field_.pieces.select(box, pieces_);
-    for (const SegmentElement* segment : pieces_.segments)
-    {
-      segmentPlaces_.push_back(&field_.places.segmentPlaces[field_.pieces.index(segment)]);
-    }
-    for (const TriangleElement* triangle : pieces_.triangles)
-    {
-      trianglePlaces_.push_back(&field_.places.trianglePlaces[field_.pieces.index(triangle)]);
-    }
     std::vector<BlendSelection::Cluster> clusters;
     for (const Groups& set : sets)
     {
       clusters.push_back(this->cluster(set));
-      if (clusters.back().terms.empty() && set == groups_)
-      {
-        return {}; // no sum is larger than that of all
-      }
     }
     return clusters;
   }
@@ -137,50 +130,151 @@ private:
     sets.erase(std::remove_if(sets.begin(), sets.end(), isSmall), sets.end());
   }
 
+  // The pieces in reach, how far they are from the groups in reach, and per pair of groups how far
+  // at most.
+  void findPieces(const Box3& box)
+  {
+    field_.pieces.select(box, pieces_);
+    most_.assign(groups_.size() * groups_.size(), 0.0);
+    this->findReaches();
+    for (const SegmentElement* segment : pieces_.segments)
+    {
+      this->addPlace(field_.places.segmentPlaces[field_.pieces.index(segment)], reachOf(*segment));
+    }
+    for (const TriangleElement* triangle : pieces_.triangles)
+    {
+      this->addPlace(
+        field_.places.trianglePlaces[field_.pieces.index(triangle)], reachOf(*triangle));
+    }
+  }
+
+  // Where an element, or the part of a group in reach, has a field. The Cauchy kernel: everywhere;
+  // and as [SUB] what cuts the others' fields has to stay where there is none.
+  template <class Element>
+  Box3 reachOf(const Element& element) const
+  {
+    const double reach = field_.whole.kernel().kind == KernelKind::Cauchy || this->isPaper()
+      ? std::numeric_limits<double>::infinity()
+      : largestReach(element);
+    const Box3 box = boundsOf(element);
+    return Box3(Vec3(box.min() - Vec3::Constant(reach)), Vec3(box.max() + Vec3::Constant(reach)));
+  }
+
+  void findReaches()
+  {
+    reaches_.resize(groups_.size());
+    for (std::size_t k = 0; k < all_.segments.size(); ++k)
+    {
+      reaches_[this->indexOf(segmentGroups_[k])].extend(reachOf(*all_.segments[k]));
+    }
+    for (std::size_t k = 0; k < all_.triangles.size(); ++k)
+    {
+      reaches_[this->indexOf(triangleGroups_[k])].extend(reachOf(*all_.triangles[k]));
+    }
+  }
+
+  void addPlace(const BlendPieces::Place& place, const Box3& reach)
+  {
+    const std::size_t count = groups_.size();
+    const std::size_t begin = distances_.size();
+    // Far from a group, so far that a place half there and half here does not blend with it.
+    distances_.resize(begin + count, 2.0 * share_.end());
+    for (const GroupDistance& near : place.distances)
+    {
+      const std::size_t index = this->indexOf(near.group);
+      if (index < count)
+      {
+        distances_[begin + index] = near.distance;
+      }
+    }
+    // Where one of both fields is always 0 the distance does not matter.
+    for (std::size_t group = 0; group < count; ++group)
+    {
+      if (!reach.intersects(reaches_[group]))
+      {
+        distances_[begin + group] = 0.0;
+      }
+    }
+    const std::size_t own = this->indexOf(place.group);
+    pieceGroups_.push_back(own);
+    if (own < count)
+    {
+      distances_[begin + own] = 0.0;
+      for (std::size_t group = 0; group < count; ++group)
+      {
+        double& most = most_[count * group + own];
+        most = std::max(most, distances_[begin + group]);
+      }
+    }
+  }
+
+  // Among the groups in reach; their number for another.
+  std::size_t indexOf(std::int32_t group) const
+  {
+    const auto found = std::lower_bound(groups_.begin(), groups_.end(), group);
+    return found != groups_.end() && *found == group
+      ? static_cast<std::size_t>(found - groups_.begin())
+      : groups_.size();
+  }
+
+  // As [SUB]: a place is one on element i alone, and i counts in full.
+  Groups placesOf(const Groups& set) const { return this->isPaper() ? Groups{ set.front() } : set; }
+
+  bool countsInFull(std::int32_t group, const Groups& places) const
+  {
+    if (this->isPaper())
+    {
+      return group == places.front();
+    }
+    const double* most = most_.data() + groups_.size() * this->indexOf(group);
+    return std::all_of(places.begin(), places.end(),
+      [&](std::int32_t place) { return most[this->indexOf(place)] <= share_.begin(); });
+  }
+
+  bool isPlain(const Groups& set) const
+  {
+    const Groups places = this->placesOf(set);
+    return std::all_of(set.begin(), set.end(),
+      [&](std::int32_t group) { return this->countsInFull(group, places); });
+  }
+
   BlendSelection::Cluster cluster(const Groups& set) const
   {
-    Groups around = this->isPaper() ? Groups{ set.front() } : set;
-    Groups plain;
+    const Groups places = this->placesOf(set);
+    std::vector<std::size_t> pieces;
     BlendSelection::Cluster result;
-    std::vector<const BlendPieces::Place*> places;
-    this->collectPieces(around, result.pieces, places);
+    Groups plain;
     for (const std::int32_t group : set)
     {
-      BlendSelection::Term term = this->term(group, places);
-      if (this->isPaper() ? group == set.front() : this->countsInFull(term))
+      if (this->countsInFull(group, places))
       {
         plain.push_back(group);
         continue;
       }
-      this->collect({ group }, term.own);
-      result.terms.push_back(std::move(term));
+      if (pieces.empty())
+      {
+        pieces = this->collectPieces(places, result.pieces);
+      }
+      result.terms.push_back(this->term(group, pieces));
     }
     std::sort(plain.begin(), plain.end());
     this->collect(plain, result.plain);
-    if (result.terms.empty())
-    {
-      result.pieces = {};
-    }
     return result;
   }
 
-  BlendSelection::Term term(
-    std::int32_t group, const std::vector<const BlendPieces::Place*>& places) const
+  BlendSelection::Term term(std::int32_t group, const std::vector<std::size_t>& pieces) const
   {
+    const std::size_t index = this->indexOf(group);
     BlendSelection::Term term;
-    for (const BlendPieces::Place* place : places)
+    term.distances.reserve(pieces.size());
+    for (const std::size_t piece : pieces)
     {
-      term.distances.push_back(place->distanceTo(group, share_.end()));
+      term.distances.push_back(distances_[groups_.size() * piece + index]);
     }
     const auto [least, largest] = std::minmax_element(term.distances.begin(), term.distances.end());
-    term.span = places.empty() ? 0.0 : *largest - *least;
+    term.span = pieces.empty() ? 0.0 : *largest - *least;
+    this->collect({ group }, term.own);
     return term;
-  }
-
-  bool countsInFull(const BlendSelection::Term& term) const
-  {
-    return std::all_of(term.distances.begin(), term.distances.end(),
-      [this](double distance) { return distance <= share_.begin(); });
   }
 
   void collect(const Groups& groups, ElementSelection& selection) const
@@ -203,27 +297,34 @@ private:
     }
   }
 
-  void collectPieces(const Groups& groups, ElementSelection& selection,
-    std::vector<const BlendPieces::Place*>& places) const
+  // Those of the groups: their places among all in reach.
+  std::vector<std::size_t> collectPieces(const Groups& groups, ElementSelection& selection) const
   {
-    const auto wanted = [&](const BlendPieces::Place* place)
-    { return std::binary_search(groups.begin(), groups.end(), place->group); };
-    for (std::size_t k = 0; k < segmentPlaces_.size(); ++k)
+    std::vector<char> wanted(groups_.size() + 1, 0);
+    for (const std::int32_t group : groups)
     {
-      if (wanted(segmentPlaces_[k]))
+      wanted[this->indexOf(group)] = 1;
+    }
+    wanted[groups_.size()] = 0;
+    std::vector<std::size_t> pieces;
+    const std::size_t segments = pieces_.segments.size();
+    for (std::size_t k = 0; k < pieceGroups_.size(); ++k)
+    {
+      if (!wanted[pieceGroups_[k]])
+      {
+        continue;
+      }
+      pieces.push_back(k);
+      if (k < segments)
       {
         selection.segments.push_back(pieces_.segments[k]);
-        places.push_back(segmentPlaces_[k]);
       }
-    }
-    for (std::size_t k = 0; k < trianglePlaces_.size(); ++k)
-    {
-      if (wanted(trianglePlaces_[k]))
+      else
       {
-        selection.triangles.push_back(pieces_.triangles[k]);
-        places.push_back(trianglePlaces_[k]);
+        selection.triangles.push_back(pieces_.triangles[k - segments]);
       }
     }
+    return pieces;
   }
 
   const BlendGroups& field_;
@@ -233,8 +334,10 @@ private:
   Groups triangleGroups_;
   Groups groups_; // those in reach
   ElementSelection pieces_;
-  std::vector<const BlendPieces::Place*> segmentPlaces_; // per piece
-  std::vector<const BlendPieces::Place*> trianglePlaces_;
+  std::vector<std::size_t> pieceGroups_; // places in groups_: of segments, then triangles
+  std::vector<Box3> reaches_;            // per group in reach
+  std::vector<double> distances_;        // per piece and group in reach
+  std::vector<double> most_;             // per group and group of the pieces
 };
 
 } // namespace

@@ -117,8 +117,8 @@ void BlendedField::select(const Box3& box, BlendSelection& selection) const
   }
 }
 
-// The sums over the pieces of a cluster at up to kPart points: of their fields, and of these times
-// the distances from the groups of its terms; all with gradients or without. Each piece is
+// The sums over the pieces of a cluster at a part of the points: of their fields, and of these
+// times the distances from the groups of its terms; all with gradients or without. Each piece is
 // integrated once.
 class BlendedField::PlaceSums
 {
@@ -130,8 +130,8 @@ public:
     , points_(points)
     , withGradient_(withGradient)
     , rows_(withGradient ? 4 : 1)
-    , row_(kPart * 4)
-    , sums_(kPart * rows_ * (cluster.terms.size() + 1))
+    , row_(points.size * rows_)
+    , sums_(points.size * rows_ * (cluster.terms.size() + 1))
   {
     std::fill_n(sums_.data(), sums_.size(), 0.0);
     std::size_t piece = 0;
@@ -159,18 +159,19 @@ public:
 private:
   const double* at(std::size_t sum, std::size_t row) const
   {
-    return sums_.data() + kPart * (rows_ * sum + row);
+    return sums_.data() + points_.size * (rows_ * sum + row);
   }
 
   template <class Element, class Add, class AddWithGradient>
   void integrate(const Element* element, Add add, AddWithGradient addWithGradient)
   {
     double* row = row_.data();
-    std::fill_n(row, kPart * rows_, 0.0);
+    const std::size_t size = points_.size;
+    std::fill_n(row, size * rows_, 0.0);
     if (withGradient_)
     {
       addWithGradient(
-        { &element, 1 }, kernel_, points_, row, { row + kPart, row + 2 * kPart, row + 3 * kPart });
+        { &element, 1 }, kernel_, points_, row, { row + size, row + 2 * size, row + 3 * size });
     }
     else
     {
@@ -180,7 +181,7 @@ private:
 
   void addRow(const BlendSelection::Cluster& cluster, std::size_t piece)
   {
-    const std::size_t count = kPart * rows_;
+    const std::size_t count = points_.size * rows_;
     for (std::size_t sum = 0; sum <= cluster.terms.size(); ++sum)
     {
       const double weight = sum == 0 ? 1.0 : cluster.terms[sum - 1].distances[piece];

@@ -18,7 +18,9 @@ struct BlendingControl
   BlendingKind kind = BlendingKind::All;
   /// Neighbours: up to which distance along the skeleton, in units of R, elements blend fully. From
   /// there their share falls to 0 over one R.
-  double distance = 1.25;
+  /// The default is more than the way between two places of a gentle skeleton that reach one point,
+  /// which is 2.
+  double distance = 2.25;
 };
 
 /// \throws InvalidParameter for a value out of its range.
