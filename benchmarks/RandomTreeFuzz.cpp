@@ -6,7 +6,7 @@
 //
 //   RandomTreeFuzz [-n trees, default 5000] [-f first seed, default 0]
 //     [-c edge lengths along the largest side, default 20] [-v: also tell what a shorter edge
-//     length has mended]
+//     length has mended, and what is at creases]
 //
 // Returns 1 if anything is wrong in the end.
 #include "core/base/Parallel.h"
@@ -70,16 +70,23 @@ public:
     bad_ += last.bad() ? 1 : 0;
     const std::size_t level = std::min(trial.verdicts.size() - 1, goodAfter_.size() - 1);
     goodAfter_[level] += last.bad() ? 0 : 1;
-    if (last.bad() || (verbose && first.bad()))
+    if (last.bad() || (verbose && !first.text.empty()))
     {
       std::printf("seed %llu (%.2f s)%s\n%s", static_cast<unsigned long long>(trial.seed),
-        trial.seconds, last.bad() ? "" : ", good at a shorter edge length",
+        trial.seconds, last.bad() ? "" : ", good in the end",
         (last.bad() ? last : first).text.c_str());
       std::fflush(stdout);
     }
   }
 
   bool allGood() const { return bad_ == 0; }
+
+  void printLine() const
+  {
+    std::printf("%d trees, %d bad, %d disagree at a crease\n", trees_, bad_,
+      atLast_[std::size_t(Fault::CreaseApart)]);
+    std::fflush(stdout);
+  }
 
   void print() const
   {
@@ -151,6 +158,7 @@ int main(int argc, char** argv)
     {
       tally.add(trial, options.verbose);
     }
+    tally.printLine();
   }
   tally.print();
   return tally.allGood() ? 0 : 1;

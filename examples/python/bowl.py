@@ -7,7 +7,6 @@ The inside of a head is carved by a cylinder whose field is negative, then two c
 local blend: it happens where both boxes of the region are, at the ends of each handle.
 """
 import os
-import time
 
 from figures import *  # heads, wings, arms; paraview.simple and our helpers
 
@@ -15,7 +14,7 @@ folder = output_folder("bowl")
 view = make_view()
 portrait_light(view)
 
-start = time.perf_counter()
+start = clock()
 head = HybridTreeMeshField(registrationName="head", Input=igea(folder), InfluenceRadius=0.08)
 hollow = HybridTreeCylinder(
     registrationName="hollow", Point1=[0, -0.2, -0.05], Point2=[0, 0.9, -0.05], Radius=0.16, SurfaceRadius=0.06,

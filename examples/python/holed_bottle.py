@@ -8,7 +8,6 @@ from its wall, all of them connected to its second input.
 """
 import math
 import os
-import time
 
 from figures import *  # heads, wings, arms; paraview.simple and our helpers
 
@@ -16,7 +15,7 @@ folder = output_folder("holed-bottle")
 view = make_view()
 portrait_light(view)
 
-start = time.perf_counter()
+start = clock()
 bottle = HybridTreeBlend(registrationName="bottle", Input=bottle_parts(), EdgeLength=0.02)
 displacements = []  # the neck leans back, towards the handle
 for i in range(3):

@@ -7,7 +7,6 @@ Splines lie along the broken edge at the chin and the notch in the cheek, a poin
 group blends with the scan inside its own region, and the rest of the scan stays as it is, triangle by triangle.
 """
 import os
-import time
 
 from figures import *  # heads, wings, arms; paraview.simple and our helpers
 
@@ -35,7 +34,7 @@ def stroke(places, radius, depth):
 
 
 picture(view, scan, os.path.join(folder, "before.png"), colour=MARBLE)
-start = time.perf_counter()
+start = clock()
 chin = HybridTreeBlend(registrationName="chin", Input=[
     stroke([(-0.058, -0.272), (-0.070, -0.300), (-0.072, -0.335), (-0.066, -0.378)], 0.013, 0.010),
     stroke([(-0.078, -0.285), (-0.088, -0.310), (-0.088, -0.340), (-0.080, -0.372)], 0.013, 0.006),

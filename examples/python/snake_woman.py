@@ -9,7 +9,6 @@ Samothrace; a mesh made of spline feathers stands in.
 """
 import math
 import os
-import time
 
 from figures import *  # heads, wings, arms; paraview.simple and our helpers
 
@@ -49,7 +48,7 @@ def body():
     yield from arm((0.235, 1.68, -0.01), (0.42, 1.47, 0.06), (0.50, 1.66, 0.26), fingers=(0.15, 0.75, 0.64), palm=(-0.5, -0.5, 0.7))
 
 
-start = time.perf_counter()
+start = clock()
 curves = list(body())
 print(f"{len(curves)} spline primitives")
 woman = splines("snake-woman", curves, folder, SurfaceRadius=0.1, InfluenceRadius=0.125, EdgeLength=EDGE)

@@ -9,7 +9,6 @@ and a cylinder around the neck; the right hand gets a shepherd's crook.
 """
 import math
 import os
-import time
 
 from figures import *  # heads, wings, arms; paraview.simple and our helpers
 
@@ -33,7 +32,7 @@ def drapery(folds=38):
         yield [at(1.10, 0.165), at(0.72, 0.20 + 0.5 * sway, 0.05), at(0.35, 0.27 + sway, 0.10), at(0.02, 0.32 + 1.3 * sway, 0.14)]
 
 
-start = time.perf_counter()
+start = clock()
 carved = splines("statue", [*torso(), *drapery()], folder, SurfaceRadius=0.1, InfluenceRadius=0.118, EdgeLength=EDGE)
 broken = HybridTreeBoolean(  # its head has gone, and below the hem there is nothing
     registrationName="broken", A=carved, Operation="Difference A - B", EdgeLength=EDGE,

@@ -7,7 +7,6 @@ The wings are a mesh of their own, here made of spline feathers. The region of t
 cylinder at the root of each wing: there they grow out of the back, and nowhere else do they touch the fur.
 """
 import os
-import time
 
 from figures import *  # heads, wings, arms; paraview.simple and our helpers
 
@@ -15,7 +14,7 @@ folder = output_folder("winged-bunny")
 view = make_view()
 portrait_light(view)
 
-start = time.perf_counter()
+start = clock()
 body = HybridTreeMeshField(registrationName="body", Input=bunny(folder), InfluenceRadius=0.06)
 roots = {side: (0.13, 0.12, 0.10 * side) for side in (-1, 1)}
 feathers = []

@@ -17,6 +17,7 @@
 #include "core/skeletons/Ellipsoid.h"
 #include "core/skeletons/HollowCylinder.h"
 #include "core/skeletons/Point.h"
+#include "core/skeletons/Polygon.h"
 #include "core/skeletons/Rectangle.h"
 #include "core/skeletons/Revolution.h"
 #include "core/skeletons/Segment.h"
@@ -71,6 +72,13 @@ private:
   Vec3 place() { return 0.5 * Vec3(this->coordinate(), this->coordinate(), this->coordinate()); }
   double coordinate() { return random_.uniform(-1.0, 1.0); }
 
+  // Concave for most notches.
+  static std::vector<Vec3> outline(
+    const Vec3& corner, const Vec3& side, const Vec3& other, double notch)
+  {
+    return { corner, corner + side, corner + notch * (side + other), corner + other };
+  }
+
   SkeletonPtr flatOrEllipsoid()
   {
     // Two sides that do not line up.
@@ -78,10 +86,13 @@ private:
     const Mat3 axes = random_.rotation();
     const Vec3 side = random_.uniform(0.2, 0.7) * axes.col(0);
     const Vec3 other = random_.uniform(0.2, 0.7) * (axes.col(1) + 0.4 * axes.col(0));
-    switch (random_.integer(0, 2))
+    switch (random_.integer(0, 3))
     {
       case 0:
         return std::make_shared<RectangleSkeleton>(corner, corner + side, corner + other);
+      case 2:
+        return std::make_shared<PolygonSkeleton>(
+          outline(corner, side, other, random_.uniform(0.2, 0.9)));
       case 1:
         return std::make_shared<TriangleSkeleton>(corner, corner + side, corner + other);
       default:

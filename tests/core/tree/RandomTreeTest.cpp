@@ -135,7 +135,7 @@ TEST_P(RandomTree, QueriesAgree)
 // The short form of benchmarks/RandomTreeFuzz.cpp.
 TEST(RandomTrees, AllMethodsAgree)
 {
-  for (std::uint64_t seed = 5000; seed < 5030; ++seed)
+  for (std::uint64_t seed = 5000; seed < 5020; ++seed)
   {
     const TreeVerdict verdict = tryTree(seed, 16.0, 2000).back();
     EXPECT_FALSE(verdict.bad()) << "seed " << seed << "\n" << verdict.text;
