@@ -4,12 +4,15 @@
 #include "reconstruction/FacetSize.h"
 #include "reconstruction/Front.h"
 #include "reconstruction/Regions.h"
+#include "reconstruction/Sides.h"
+#include "reconstruction/SolidBoundary.h"
 #include "reconstruction/SolidRepair.h"
 
 #include "core/base/Error.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 namespace hybridtree
@@ -23,6 +26,14 @@ constexpr double kBytesPerPoint = 1300.0;
 // Tetrahedra of at least this size are told apart by the watershed; smaller ones are left to the
 // flow. Low, since the watershed weighs both sides and the flow only knows one.
 constexpr double kWide = 1.0;
+// SideOptions::poles, for solids and where parts are missing.
+constexpr double kPoles = 0.7;
+constexpr double kPolesOfHoles = 1.5;
+// Where fewer of the points than this share are on the surface, a part of it was perhaps not
+// entered, or broken into: a second way to tell inside from outside is tried.
+constexpr double kFewUsed = 0.9;
+// It is kept if it reaches this many times as many.
+constexpr double kMoreUsed = 1.05;
 
 // Whether no solid was found, or but crumbs along the surface of something open: none of them
 // touches a hundredth of the points.
@@ -65,30 +76,47 @@ bool solidIsMissing(const Tetrahedralization& tetrahedra, const std::vector<std:
   return true;
 }
 
-std::vector<std::uint8_t> solid(
-  const Tetrahedralization& tetrahedra, const ConvectionOptions& options, const Progress& progress)
+using Solid = std::vector<std::uint8_t>;
+
+Solid solid(const Tetrahedralization& tetrahedra, const FacetSize& sizes,
+  const std::vector<Region>& regions, bool openPockets, Voids voids, const Progress& progress)
 {
-  const FacetSize sizes(tetrahedra, progress);
-  const std::vector<Region> regions =
-    findRegions(tetrahedra, sizes, kWide, options.pocketFactor, progress);
   Front front(tetrahedra, sizes, regions);
-  front.run(options.openPockets, progress);
+  front.run(openPockets, voids, progress);
   std::vector<std::uint8_t> inside = front.inside();
-  repairSolid(tetrahedra, inside, progress);
+  repairSolid(tetrahedra, inside, voids, progress);
   return inside;
 }
 
-// What convection finds when it may nowhere change the topology: never nothing.
-std::vector<std::uint8_t> solidFromHull(
-  const Tetrahedralization& tetrahedra, const Progress& progress)
+// With two colours, which is slower.
+Solid solidBySides(const Tetrahedralization& tetrahedra, const FacetSize& sizes,
+  const SideOptions& options, bool openPockets, const Progress& progress)
 {
-  const FacetSize sizes(tetrahedra, progress);
-  std::vector<Region> regions(tetrahedra.cellCount(), Region::Surface);
-  Front front(tetrahedra, sizes, regions);
-  front.run(false, progress);
-  std::vector<std::uint8_t> inside = front.inside();
-  repairSolid(tetrahedra, inside, progress);
-  return inside;
+  return solid(tetrahedra, sizes, findSides(tetrahedra, sizes, options, progress), openPockets,
+    options.normals ? Voids::Kept : Voids::Filled, progress);
+}
+
+// What convection finds when it may nowhere change the topology: never nothing.
+Solid solidFromHull(
+  const Tetrahedralization& tetrahedra, const FacetSize& sizes, const Progress& progress)
+{
+  const std::vector<Region> regions(tetrahedra.cellCount(), Region::Surface);
+  return solid(tetrahedra, sizes, regions, false, Voids::Filled, progress);
+}
+
+// Share of the points that are on the boundary of a solid.
+double shareUsed(
+  const Tetrahedralization& tetrahedra, const Solid& inside, const Progress& progress)
+{
+  std::vector<std::uint8_t> used(tetrahedra.points().size(), 0);
+  for (const std::int32_t halfFacet : boundaryFacets(tetrahedra, inside, progress))
+  {
+    for (const std::int32_t vertex : tetrahedra.facet(halfFacet >> 2, halfFacet & 3))
+    {
+      used[vertex] = 1;
+    }
+  }
+  return double(std::count(used.begin(), used.end(), 1)) / double(used.size());
 }
 
 void checkMemory(std::size_t points, std::size_t limit)
@@ -118,19 +146,79 @@ void checkOptions(std::size_t points, const ConvectionOptions& options)
   checkMemory(points, options.maxMemory);
 }
 
-std::vector<std::uint8_t> convectSolid(const Tetrahedralization& tetrahedra,
-  const ConvectionOptions& options, std::vector<std::string>& warnings, const Progress& progress)
+void checkNormals(std::size_t points, const ConvectionOptions& options)
 {
-  std::vector<std::uint8_t> inside = solid(tetrahedra, options, ProgressPart(progress, 0.0, 0.9));
-  progress.check();
-  progress.report(0.9);
+  if (!options.normals.empty() && options.normals.size() != points)
+  {
+    throw InvalidParameter("normals", double(options.normals.size()), "as many as points, or none");
+  }
+  for (std::size_t k = 0; k < options.normals.size(); ++k)
+  {
+    if (!options.normals[k].allFinite())
+    {
+      throw InvalidGeometry("The normal of point " + std::to_string(k) +
+        " is not finite: mend it, use 0 for one that is not known, or reconstruct without "
+        "normals.");
+    }
+  }
+}
+
+std::vector<std::uint8_t> convectSolid(const Tetrahedralization& tetrahedra,
+  const ConvectionOptions& options, SiteNormals normals, std::vector<std::string>& warnings,
+  const Progress& progress)
+{
+  const FacetSize sizes(tetrahedra, progress);
+  SideOptions sides{ kWide, options.pocketFactor, false, kPoles, normals };
+  const auto bySides = [&](double from, double to)
+  {
+    progress.check();
+    progress.report(from);
+    return solidBySides(
+      tetrahedra, sizes, sides, options.openPockets, ProgressPart(progress, from, to));
+  };
+  if (normals)
+  {
+    Solid inside = bySides(0.1, 1.0);
+    if (!solidIsMissing(tetrahedra, inside))
+    {
+      return inside;
+    }
+  }
+  Solid inside =
+    solid(tetrahedra, sizes, findRegions(tetrahedra, sizes, kWide, options.pocketFactor, progress),
+      options.openPockets, Voids::Filled, ProgressPart(progress, 0.1, 0.7));
+  double used = shareUsed(tetrahedra, inside, progress);
+  // At first as mouths are wide; then, as where a part is missing, no mouth is taken for granted.
+  for (const double mouth : { options.pocketFactor, std::numeric_limits<double>::infinity() })
+  {
+    if (used < kFewUsed)
+    {
+      sides.mouth = mouth;
+      sides.poles = std::isinf(mouth) ? kPolesOfHoles : kPoles;
+      Solid other = bySides(0.7, 0.8);
+      const double otherUsed = shareUsed(tetrahedra, other, progress);
+      if (otherUsed > kMoreUsed * used)
+      {
+        inside.swap(other);
+        used = otherUsed;
+      }
+    }
+  }
   if (solidIsMissing(tetrahedra, inside))
   {
     warnings.push_back("The points are too few, too scattered or on too open a surface to tell "
                        "inside from outside: only dents were followed.");
-    inside = solidFromHull(tetrahedra, ProgressPart(progress, 0.9, 1.0));
+    inside = solidFromHull(tetrahedra, sizes, ProgressPart(progress, 0.9, 1.0));
   }
   return inside;
+}
+
+std::vector<std::uint8_t> convectSheet(const Tetrahedralization& tetrahedra,
+  const ConvectionOptions& options, SiteNormals normals, const Progress& progress)
+{
+  const FacetSize sizes(tetrahedra, progress);
+  const SideOptions sides{ kWide, options.pocketFactor, true, kPolesOfHoles, normals };
+  return solidBySides(tetrahedra, sizes, sides, options.openPockets, progress);
 }
 
 void setAreaNormals(TriangleMesh& mesh)

@@ -2,6 +2,7 @@
 #include "reconstruction/Convection.h"
 
 #include "reconstruction/ConvectedSolid.h"
+#include "reconstruction/Holes.h"
 #include "reconstruction/SolidBoundary.h"
 #include "reconstruction/SpatialOrder.h"
 #include "reconstruction/Tetrahedralization.h"
@@ -38,21 +39,54 @@ void appendBoundary(const Tetrahedralization& tetrahedra, const std::vector<std:
   }
 }
 
+// Through which points the sheet goes, if it finds one; else the boundary of the solid.
+ReconstructedSurface convect(const Tetrahedralization& tetrahedra, const ConvectionOptions& options,
+  SiteNormals normals, const Progress& progress)
+{
+  ReconstructedSurface surface;
+  if (!options.closeHoles)
+  {
+    appendBoundary(
+      tetrahedra, convectSheet(tetrahedra, options, normals, progress), surface, progress);
+    openHoles(surface, tetrahedra.points(), options.holeFactor, progress);
+    if (2 * surface.pointIds.size() > tetrahedra.points().size())
+    {
+      return surface;
+    }
+    surface = {};
+  }
+  appendBoundary(tetrahedra, convectSolid(tetrahedra, options, normals, surface.warnings, progress),
+    surface, progress);
+  if (!options.closeHoles)
+  {
+    openHoles(surface, tetrahedra.points(), options.holeFactor, progress);
+  }
+  return surface;
+}
+
+template <typename Item>
+std::vector<Item> inOrder(const std::vector<Item>& items, const std::vector<std::int32_t>& order)
+{
+  std::vector<Item> ordered(order.size());
+  std::transform(
+    order.begin(), order.end(), ordered.begin(), [&](std::int32_t item) { return items[item]; });
+  return ordered;
+}
+
 } // namespace
 
 ReconstructedSurface reconstruct(
   const std::vector<Vec3>& points, const ConvectionOptions& options, const Progress& progress)
 {
   checkOptions(points.size(), options);
+  checkNormals(points.size(), options);
   const std::vector<std::int32_t> order = spatialOrder(points, progress);
-  std::vector<Vec3> ordered(points.size());
-  std::transform(
-    order.begin(), order.end(), ordered.begin(), [&](std::int32_t point) { return points[point]; });
+  const std::vector<Vec3> ordered = inOrder(points, order);
+  const std::vector<Vec3> normals =
+    options.normals.empty() ? std::vector<Vec3>() : inOrder(options.normals, order);
   const Tetrahedralization tetrahedra(ordered, ProgressPart(progress, 0.0, 0.6));
-  ReconstructedSurface surface;
-  const std::vector<std::uint8_t> inside =
-    convectSolid(tetrahedra, options, surface.warnings, ProgressPart(progress, 0.6, 1.0));
-  appendBoundary(tetrahedra, inside, surface, progress);
+  ReconstructedSurface surface = convect(
+    tetrahedra, options, normals.empty() ? nullptr : &normals, ProgressPart(progress, 0.6, 1.0));
   for (std::int32_t& point : surface.pointIds)
   {
     point = order[point];

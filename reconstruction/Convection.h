@@ -21,11 +21,21 @@ struct ConvectionOptions
   /// mouth of a pocket whatever lies behind it; a smaller one only where what lies behind is not
   /// much wider. No unit, > 1, default 6. Raise it where the surface breaks in through a gap.
   double pocketFactor = 6.0;
+  /// The surface of a solid, closed over whatever is missing. Off: holes of the sampling are left
+  /// open, and so is the border of a sheet (Holes.h); the surface then is a manifold with boundary.
+  bool closeHoles = true;
+  /// Without closeHoles: diameter of the smallest empty disc that is a hole, in local mean
+  /// distances between points. No unit, > 1.
+  double holeFactor = 5.0;
+  /// Normals of the points, outward, any length, 0 where unknown; or empty: none. They tell inside
+  /// from outside where they are known, so that cavities closed off all around are found too.
+  std::vector<Vec3> normals;
   /// Bytes that the work may take, estimated from the number of points before it starts.
   std::size_t maxMemory = std::size_t(16) << 30;
 };
 
-/// A reconstructed surface: closed, 2-manifold, oriented outward, through points of the input.
+/// A reconstructed surface: closed (but for holes that were to be left open), 2-manifold, oriented
+/// outward, through points of the input.
 struct ReconstructedSurface
 {
   /// Points (copies of input points, bit for bit), triangles, and normals (area weighted).
@@ -53,8 +63,10 @@ struct ReconstructedSurface
 ///   sampling (Front.h), so thin walls are not torn and uneven sampling makes no handles;
 /// - the few vertices where it meets itself are mended to a manifold at the end by passing or
 ///   taking back single tetrahedra (SolidRepair.h).
-/// A cavity that is closed off all around, and a hole or wall about as thin as the points are far
-/// apart, may be lost.
+/// Without closeHoles the flow starts from that part of the hull that is of the outside's colour
+/// (Regions.h), which need not be all of it: so it comes to one side of a sheet only.
+/// A cavity that is closed off all around (unless normals tell of it), and a hole or wall about as
+/// thin as the points are far apart, may be lost.
 ///
 /// \param points in any order; coincident points count once. Cost O(n log n) for points on a
 /// surface, about 1 KB of memory a point.

@@ -153,12 +153,26 @@ ReconstructedSurface DynamicReconstruction::ofAll(const Progress& progress) cons
   std::vector<Vec3> points(used.size());
   std::transform(
     used.begin(), used.end(), points.begin(), [&](std::int32_t point) { return points_[point]; });
-  ReconstructedSurface surface = reconstruct(points, options_, progress);
+  ConvectionOptions options = options_;
+  options.normals = this->normalsOf(used);
+  ReconstructedSurface surface = reconstruct(points, options, progress);
   for (std::int32_t& point : surface.pointIds)
   {
     point = ids_[used[point]];
   }
   return surface;
+}
+
+// None if none were given; 0 for points that came later.
+std::vector<Vec3> DynamicReconstruction::normalsOf(const std::vector<std::int32_t>& points) const
+{
+  std::vector<Vec3> normals;
+  for (std::size_t k = 0; k < points.size() && !options_.normals.empty(); ++k)
+  {
+    const auto id = static_cast<std::size_t>(ids_[points[k]]);
+    normals.push_back(id < options_.normals.size() ? options_.normals[id] : Vec3(Vec3::Zero()));
+  }
+  return normals;
 }
 
 std::vector<std::int32_t> DynamicReconstruction::usedPoints() const
@@ -260,7 +274,10 @@ bool DynamicReconstruction::convect(const Progress& progress)
   }
   const Tetrahedralization tetrahedra = surface.tetrahedralization(progress);
   state_->warnings.clear();
-  surface.setInside(tetrahedra, convectSolid(tetrahedra, options_, state_->warnings, progress));
+  const std::vector<Vec3> normals = this->normalsOf(state_->pointOfSite);
+  surface.setInside(tetrahedra,
+    convectSolid(
+      tetrahedra, options_, normals.empty() ? nullptr : &normals, state_->warnings, progress));
   std::vector<std::uint8_t> seen(surface.sites().size(), 0);
   for (const std::int32_t triangle : surface.surface())
   {

@@ -113,6 +113,7 @@ private:
   bool reaches(const LevelOfDetail& detail) const;
   ReconstructedSurface ofAll(const Progress& progress) const;
   std::vector<std::int32_t> usedPoints() const;
+  std::vector<Vec3> normalsOf(const std::vector<std::int32_t>& points) const;
   void startAgain(const LevelOfDetail& detail, const Progress& progress);
   std::vector<std::int32_t> representatives() const;
   bool addFiner(const Progress& progress);

@@ -27,6 +27,9 @@ public:
   explicit FacetSize(
     const Tetrahedralization& tetrahedra, const Progress& progress = Progress::none());
 
+  /// The local spacing at a point; infinite at a duplicate.
+  double spacing(std::int32_t point) const { return spacing_[point]; }
+
   /// Over the spacing at each edge's denser end, the widest edge counts: what may be wide.
   /// \pre the cell is finite.
   float ofFacet(std::int32_t cell, int facet) const { return facets_[cell][facet]; }

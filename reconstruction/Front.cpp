@@ -27,20 +27,31 @@ Front::Front(
   , surfaceFacets_(tetrahedra.points().size(), 0)
   , firstWaiting_(tetrahedra.points().size(), -1)
 {
-  std::fill_n(inside_.begin(), tetrahedra.finiteCellCount(), std::uint8_t(1));
+  for (std::int32_t cell = 0; cell < tetrahedra_.cellCount(); ++cell)
+  {
+    inside_[cell] = tetrahedra_.finite(cell) || regions_[cell] == Region::Inside;
+  }
 }
 
-void Front::run(bool openPockets, const Progress& progress)
+void Front::run(bool openPockets, Voids voids, const Progress& progress)
 {
   openPockets_ = openPockets;
   this->passEmptySpace(progress);
-  std::size_t passed = 0;
+  this->flow(progress);
+  if (voids == Voids::Kept)
+  {
+    this->openVoids(progress);
+  }
+}
+
+void Front::flow(const Progress& progress)
+{
   for (std::size_t step = 0; !queue_.empty() || !membranes_.empty(); ++step)
   {
     if (step % 8192 == 0)
     {
       progress.check();
-      progress.report(double(passed) / double(tetrahedra_.finiteCellCount()));
+      progress.report(double(passed_) / double(tetrahedra_.finiteCellCount()));
     }
     const bool torn = queue_.empty();
     const std::int32_t top = this->nextToPass();
@@ -55,7 +66,7 @@ void Front::run(bool openPockets, const Progress& progress)
     else if (this->mayPass(top))
     {
       this->pass(top >> 2);
-      ++passed;
+      ++passed_;
     }
   }
 }
@@ -77,7 +88,10 @@ void Front::passEmptySpace(const Progress& progress)
   std::vector<std::int32_t> passed;
   for (std::int32_t cell = tetrahedra_.finiteCellCount(); cell < tetrahedra_.cellCount(); ++cell)
   {
-    passed.push_back(cell);
+    if (!this->isInside(cell))
+    {
+      passed.push_back(cell);
+    }
   }
   for (std::size_t k = 0; openPockets_ && k < passed.size(); ++k)
   {
@@ -102,12 +116,56 @@ void Front::passEmptySpace(const Progress& progress)
     for (int facet = 0; facet < 4; ++facet)
     {
       const std::int32_t beyond = tetrahedra_.neighbor(cell, facet);
-      if (this->isInside(beyond))
+      if (this->isInside(beyond) && (tetrahedra_.finite(cell) || tetrahedra_.finite(beyond)))
       {
         this->uncover(beyond, tetrahedra_.mirror(cell, facet));
       }
     }
   }
+}
+
+// In each space that is of the outside and closed off, starts in its largest cell.
+void Front::openVoids(const Progress& progress)
+{
+  std::vector<std::uint8_t> seen(inside_.size(), 0);
+  std::vector<std::int32_t> stack;
+  for (std::int32_t seed = 0; seed < tetrahedra_.finiteCellCount(); ++seed)
+  {
+    std::int32_t largest = -1;
+    stack.assign(1, seed);
+    while (!stack.empty())
+    {
+      const std::int32_t cell = stack.back();
+      stack.pop_back();
+      if (seen[cell] || !this->isInside(cell) || regions_[cell] != Region::Outside)
+      {
+        continue;
+      }
+      seen[cell] = 1;
+      if (this->isBuried(cell) &&
+        (largest < 0 || sizes_.lengthOfCell(cell) > sizes_.lengthOfCell(largest)))
+      {
+        largest = cell;
+      }
+      for (int facet = 0; facet < 4; ++facet)
+      {
+        stack.push_back(tetrahedra_.neighbor(cell, facet));
+      }
+    }
+    if (largest >= 0)
+    {
+      this->pass(largest);
+      this->flow(progress);
+    }
+  }
+}
+
+// Whether the surface does not touch a cell.
+bool Front::isBuried(std::int32_t cell) const
+{
+  const auto& vertices = tetrahedra_.cell(cell);
+  return std::all_of(vertices.begin(), vertices.end(),
+    [this](std::int32_t vertex) { return surfaceFacets_[vertex] == 0; });
 }
 
 // Passes the whole membrane that a cell is of: what is left of the outside around it. Its narrower

@@ -4,6 +4,7 @@
 #include "reconstruction/FacetSize.h"
 #include "reconstruction/Regions.h"
 #include "reconstruction/SizeQueue.h"
+#include "reconstruction/SolidRepair.h"
 #include "reconstruction/Tetrahedralization.h"
 
 #include "core/base/Progress.h"
@@ -37,10 +38,12 @@ public:
   Front(const Tetrahedralization& tetrahedra, const FacetSize& sizes,
     const std::vector<Region>& regions);
 
-  /// Shrinks the front from the convex hull. Once. \throws Cancelled.
-  void run(bool openPockets, const Progress& progress);
+  /// Shrinks the front from the convex hull, or that part of it before infinite cells that are not
+  /// Inside. Then, if voids are kept, from within spaces of the outside that it has not reached.
+  /// Once. \throws Cancelled.
+  void run(bool openPockets, Voids voids, const Progress& progress);
 
-  /// Per cell: 1 if not passed; infinite cells 0.
+  /// Per cell: 1 if not passed; infinite cells 0 unless Inside.
   const std::vector<std::uint8_t>& inside() const { return inside_; }
 
 private:
@@ -67,6 +70,9 @@ private:
   }
   void passEmptySpace(const Progress& progress);
   std::int32_t nextToPass();
+  void flow(const Progress& progress);
+  void openVoids(const Progress& progress);
+  bool isBuried(std::int32_t cell) const;
   void uncover(std::int32_t cell, int facet);
   void cancel(std::int32_t cell, int facet);
   bool mayEverPass(std::int32_t cell, int facet) const;
@@ -82,6 +88,7 @@ private:
   const FacetSize& sizes_;
   const std::vector<Region>& regions_;
   bool openPockets_ = true;
+  std::size_t passed_ = 0;
   std::vector<std::uint8_t> inside_;        // per cell
   std::vector<std::int32_t> surfaceFacets_; // per point: facets of the surface around it
   // Facets that wait for a point to be freed: lists in one pool, the first of each per point.

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "reconstruction/KeptReconstruction.h"
 
+#include "reconstruction/ConvectedSolid.h"
+#include "reconstruction/Holes.h"
+
 #include <algorithm>
 #include <utility>
 
@@ -9,10 +12,13 @@ namespace hybridtree
 namespace
 {
 
-bool same(const ConvectionOptions& a, const ConvectionOptions& b)
+// Of what the kept state depends on. More normals may have come, with more points.
+bool same(const ConvectionOptions& now, const ConvectionOptions& before)
 {
-  return a.openPockets == b.openPockets && a.pocketFactor == b.pocketFactor &&
-    a.maxMemory == b.maxMemory;
+  return now.openPockets == before.openPockets && now.pocketFactor == before.pocketFactor &&
+    now.maxMemory == before.maxMemory && now.normals.empty() == before.normals.empty() &&
+    now.normals.size() >= before.normals.size() &&
+    std::equal(before.normals.begin(), before.normals.end(), now.normals.begin());
 }
 
 } // namespace
@@ -20,6 +26,7 @@ bool same(const ConvectionOptions& a, const ConvectionOptions& b)
 ReconstructedSurface KeptReconstruction::update(const std::vector<Vec3>& points,
   const LevelOfDetail& detail, const ConvectionOptions& options, const Progress& progress)
 {
+  checkNormals(points.size(), options);
   std::unique_ptr<DynamicReconstruction> used = std::exchange(kept_, nullptr);
   const ProgressPart first(progress, 0.0, 0.05);
   if (!used || !same(options, options_) || !this->begins(points))
@@ -36,6 +43,10 @@ ReconstructedSurface KeptReconstruction::update(const std::vector<Vec3>& points,
   options_ = options;
   ReconstructedSurface surface = used->update(detail, ProgressPart(progress, 0.05, 1.0));
   kept_ = std::move(used);
+  if (!options.closeHoles)
+  {
+    openHoles(surface, points, options.holeFactor, progress);
+  }
   return surface;
 }
 

@@ -6,6 +6,9 @@
 #include "core/base/Error.h"
 #include "core/base/Parallel.h"
 
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
 #include <pcl/search/kdtree.h>
@@ -22,6 +25,8 @@ namespace hybridtree
 namespace
 {
 
+constexpr std::size_t kGrain = 1024;
+
 using Cloud = pcl::PointCloud<pcl::PointXYZ>;
 
 // The chosen points in a box of diagonal 2 around 0.
@@ -29,6 +34,13 @@ struct FloatCloud
 {
   Cloud::Ptr cloud = Cloud::Ptr(new Cloud);
   double scale = 1.0; // float length per world length
+  Vec3 center = Vec3::Zero();
+
+  pcl::PointXYZ map(const Vec3& point) const
+  {
+    const Eigen::Vector3f p = ((point - center) * scale).cast<float>();
+    return { p.x(), p.y(), p.z() };
+  }
 };
 
 FloatCloud toFloat(const std::vector<Vec3>& points, const std::vector<std::int32_t>& chosen)
@@ -46,11 +58,11 @@ FloatCloud toFloat(const std::vector<Vec3>& points, const std::vector<std::int32
   FloatCloud result;
   const double diagonal = chosen.empty() ? 0.0 : box.diagonal().stableNorm();
   result.scale = diagonal > 0.0 && std::isfinite(diagonal) ? 2.0 / diagonal : 1.0;
+  result.center = chosen.empty() ? Vec3(Vec3::Zero()) : box.center();
   result.cloud->reserve(chosen.size());
   for (const std::int32_t point : chosen)
   {
-    const Eigen::Vector3f p = ((points[point] - box.center()) * result.scale).cast<float>();
-    result.cloud->push_back({ p.x(), p.y(), p.z() });
+    result.cloud->push_back(result.map(points[point]));
   }
   return result;
 }
@@ -79,6 +91,51 @@ struct Place
   }
 };
 
+// A point, moved onto the quadratic surface that fits the points around it best.
+Vec3 projected(const Vec3& point, const std::vector<Vec3>& around, double radius)
+{
+  using Vec6 = Eigen::Matrix<double, 6, 1>;
+  if (around.size() < 6)
+  {
+    return point;
+  }
+  const auto weight = [&](const Vec3& p)
+  {
+    const double u = 1.0 - (p - point).squaredNorm() / (radius * radius);
+    return u > 0.0 ? u * u : 0.0;
+  };
+  double sum = 0.0;
+  Vec3 center = Vec3::Zero();
+  for (const Vec3& p : around)
+  {
+    sum += weight(p);
+    center += weight(p) * (p - point);
+  }
+  center = point + center / sum;
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (const Vec3& p : around)
+  {
+    spread += weight(p) * (p - center) * (p - center).transpose();
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(spread); // smallest first
+  const Eigen::Matrix3d axes = solver.eigenvectors();
+  Eigen::Matrix<double, 6, 6> normal = Eigen::Matrix<double, 6, 6>::Zero();
+  Vec6 right = Vec6::Zero();
+  for (const Vec3& p : around)
+  {
+    const Vec3 local = axes.transpose() * (p - point) / radius;
+    const double x = local[1];
+    const double y = local[2];
+    Vec6 basis;
+    basis << 1.0, x, y, x * x, x * y, y * y;
+    normal += weight(p) * basis * basis.transpose();
+    right += weight(p) * local[0] * basis;
+  }
+  normal.diagonal().array() += 1e-9 * normal(0, 0); // points on a line
+  const double height = normal.ldlt().solve(right)[0];
+  return std::isfinite(height) ? Vec3(point + height * radius * axes.col(0)) : point;
+}
+
 // Per chosen point, the mean distance to its nearest neighbours, in units of the whole's size.
 // \pre there are more points than neighbors.
 std::vector<double> meanDistances(const std::vector<Vec3>& points,
@@ -89,7 +146,7 @@ std::vector<double> meanDistances(const std::vector<Vec3>& points,
   pcl::search::KdTree<pcl::PointXYZ> tree;
   tree.setInputCloud(scaled.cloud);
   std::vector<double> distances(chosen.size());
-  parallelFor(chosen.size(), 1024,
+  parallelFor(chosen.size(), kGrain,
     [&](std::size_t begin, std::size_t end)
     {
       progress.check();
@@ -217,6 +274,44 @@ std::vector<std::int32_t> thinned(const std::vector<Vec3>& points,
   return pick(chosen, keep);
 }
 
+std::vector<Vec3> smoothed(const std::vector<Vec3>& points, const std::vector<std::int32_t>& chosen,
+  double radius, const Progress& progress)
+{
+  if (!(radius > 0.0) || !std::isfinite(radius))
+  {
+    throw InvalidParameter("SmoothingRadius", radius, "a finite length above 0");
+  }
+  std::vector<Vec3> moved(chosen.size());
+  if (chosen.empty())
+  {
+    return moved;
+  }
+  const FloatCloud scaled = toFloat(points, chosen);
+  pcl::search::KdTree<pcl::PointXYZ> tree(false);
+  tree.setInputCloud(scaled.cloud);
+  const double reach = std::min(radius * scaled.scale, 4.0);
+  parallelFor(chosen.size(), kGrain,
+    [&](std::size_t begin, std::size_t end)
+    {
+      pcl::Indices near;
+      std::vector<float> squared;
+      std::vector<Vec3> around;
+      for (std::size_t k = begin; k < end; ++k)
+      {
+        if (k % 64 == 0)
+        {
+          progress.check();
+        }
+        tree.radiusSearch((*scaled.cloud)[k], reach, near, squared);
+        around.resize(near.size());
+        std::transform(near.begin(), near.end(), around.begin(),
+          [&](int index) { return points[chosen[index]]; });
+        moved[k] = projected(points[chosen[k]], around, radius);
+      }
+    });
+  return moved;
+}
+
 std::vector<double> surfaceDensity(const std::vector<Vec3>& points,
   const std::vector<std::int32_t>& chosen, int neighbors, const Progress& progress)
 {
@@ -233,16 +328,42 @@ std::vector<double> surfaceDensity(const std::vector<Vec3>& points,
   const FloatCloud scaled = toFloat(points, chosen);
   pcl::search::KdTree<pcl::PointXYZ> tree;
   tree.setInputCloud(scaled.cloud);
-  pcl::Indices nearest;
-  std::vector<float> squaredDistances;
   const double pi = std::acos(-1.0);
-  for (std::size_t k = 0; k < chosen.size(); ++k)
-  {
-    tell(progress, k, chosen.size());
-    tree.nearestKSearch((*scaled.cloud)[k], count + 1, nearest, squaredDistances); // and itself
-    density[k] = count * scaled.scale * scaled.scale / (pi * double(squaredDistances.back()));
-  }
+  parallelFor(chosen.size(), kGrain,
+    [&](std::size_t begin, std::size_t end)
+    {
+      progress.check();
+      pcl::Indices nearest;
+      std::vector<float> squared;
+      for (std::size_t k = begin; k < end; ++k)
+      {
+        tree.nearestKSearch((*scaled.cloud)[k], count + 1, nearest, squared); // and itself
+        density[k] = count * scaled.scale * scaled.scale / (pi * double(squared.back()));
+      }
+    });
   return density;
+}
+
+std::vector<NearestPoint> nearestPoints(
+  const std::vector<Vec3>& points, const std::vector<Vec3>& places, const Progress& progress)
+{
+  const FloatCloud scaled = toFloat(points, allPoints(points));
+  pcl::search::KdTree<pcl::PointXYZ> tree;
+  tree.setInputCloud(scaled.cloud);
+  std::vector<NearestPoint> result(places.size());
+  parallelFor(places.size(), kGrain,
+    [&](std::size_t begin, std::size_t end)
+    {
+      progress.check();
+      pcl::Indices nearest;
+      std::vector<float> squared;
+      for (std::size_t k = begin; k < end; ++k)
+      {
+        tree.nearestKSearch(scaled.map(places[k]), 1, nearest, squared);
+        result[k] = { nearest.front(), (points[nearest.front()] - places[k]).norm() };
+      }
+    });
+  return result;
 }
 
 } // namespace hybridtree

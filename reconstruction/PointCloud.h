@@ -38,11 +38,33 @@ std::vector<std::int32_t> thinned(const std::vector<Vec3>& points,
   const std::vector<std::int32_t>& chosen, double spacing,
   const Progress& progress = Progress::none());
 
+/// The chosen points moved onto a smooth surface among them: moving least squares (Alexa et al.
+/// 2003, in one step). Around each point a plane is fitted to its neighbours, then a quadratic
+/// height over it, and the point goes straight onto that. So noise, and several layers of
+/// overlapping scans that are less than about half the radius apart, come out as one sheet; detail
+/// finer than the radius goes too.
+/// \param radius of the neighbourhood, world units, finite, > 0. Points with fewer than six
+/// neighbours in it stay.
+/// \returns one place per chosen point.
+std::vector<Vec3> smoothed(const std::vector<Vec3>& points, const std::vector<std::int32_t>& chosen,
+  double radius, const Progress& progress = Progress::none());
+
 /// Per chosen point: points per unit area around it, on the assumption that they sample a surface:
 /// k / (pi d^2), d the distance to the k-th neighbour. Infinite where k points coincide.
 /// \param neighbors k >= 1; fewer when there are fewer points.
 std::vector<double> surfaceDensity(const std::vector<Vec3>& points,
   const std::vector<std::int32_t>& chosen, int neighbors,
   const Progress& progress = Progress::none());
+
+/// Of some points the nearest to a place, and how far off it is.
+struct NearestPoint
+{
+  std::int32_t point = -1;
+  double distance = 0.0; ///< world units, up to float rounding of the points' extent
+};
+
+/// Per place the nearest of the points. \pre points is not empty.
+std::vector<NearestPoint> nearestPoints(const std::vector<Vec3>& points,
+  const std::vector<Vec3>& places, const Progress& progress = Progress::none());
 
 } // namespace hybridtree

@@ -60,7 +60,7 @@ std::vector<std::int32_t> joined(const std::vector<std::vector<std::int32_t>>& p
 std::vector<std::int32_t> boundaryFacets(const Tetrahedralization& tetrahedra,
   const std::vector<std::uint8_t>& inside, const Progress& progress)
 {
-  const auto count = static_cast<std::size_t>(tetrahedra.finiteCellCount());
+  const auto count = static_cast<std::size_t>(tetrahedra.cellCount());
   std::vector<std::vector<std::int32_t>> parts((count + kGrain - 1) / kGrain);
   parallelFor(count, kGrain,
     [&](std::size_t begin, std::size_t end)
@@ -71,7 +71,9 @@ std::vector<std::int32_t> boundaryFacets(const Tetrahedralization& tetrahedra,
         const auto cell = static_cast<std::int32_t>(k);
         for (int facet = 0; inside[k] != 0 && facet < 4; ++facet)
         {
-          if (inside[tetrahedra.neighbor(cell, facet)] == 0)
+          if (inside[tetrahedra.neighbor(cell, facet)] == 0 &&
+            (tetrahedra.finite(cell) ||
+              tetrahedra.cell(cell)[facet] == Tetrahedralization::kInfinite))
           {
             parts[begin / kGrain].push_back(4 * cell + facet);
           }

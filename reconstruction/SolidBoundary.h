@@ -11,9 +11,9 @@
 namespace hybridtree
 {
 
-/// Boundary of a set of finite cells: half-facets, 4 * cell + facet, of cells in the set whose
-/// neighbours are not, in rising order. In parallel.
-/// \param inside per cell: not 0 in the set; infinite cells 0.
+/// Boundary of a set of cells: half-facets, 4 * cell + facet, of cells in the set whose neighbours
+/// are not, in rising order, but for those that reach to infinity. In parallel.
+/// \param inside per cell: not 0 in the set.
 /// \throws Cancelled.
 std::vector<std::int32_t> boundaryFacets(const Tetrahedralization& tetrahedra,
   const std::vector<std::uint8_t>& inside, const Progress& progress);

@@ -27,10 +27,11 @@ struct Clump
 class SolidRepair
 {
 public:
-  SolidRepair(const Tetrahedralization& tetrahedra, std::vector<std::uint8_t>& inside,
+  SolidRepair(const Tetrahedralization& tetrahedra, std::vector<std::uint8_t>& inside, Voids voids,
     const Progress& progress)
     : tetrahedra_(tetrahedra)
     , inside_(inside)
+    , voids_(voids)
     , progress_(progress)
     , unseen_(inside.size(), 0)
     , flips_(inside.size(), 0)
@@ -81,6 +82,7 @@ private:
 
   const Tetrahedralization& tetrahedra_;
   std::vector<std::uint8_t>& inside_;
+  const Voids voids_;
   const Progress& progress_;
   std::vector<std::uint8_t> unseen_; // all 0 between uses
   std::vector<std::int32_t> stack_;
@@ -352,6 +354,7 @@ void SolidRepair::removeCrumbsAndVoids()
   constexpr std::size_t kCrumb = 100;
   std::vector<std::uint8_t> seen(inside_.size(), 0);
   std::vector<std::vector<std::int32_t>> solids;
+  std::vector<std::vector<std::int32_t>> voids;
   for (std::int32_t seed = tetrahedra_.cellCount() - 1; seed >= 0; --seed)
   {
     if (seen[seed])
@@ -381,8 +384,7 @@ void SolidRepair::removeCrumbsAndVoids()
     }
     if (isVoid)
     {
-      std::for_each(
-        cells.begin(), cells.end(), [this](std::int32_t cell) { this->setSide(cell, true); });
+      voids.push_back(std::move(cells));
     }
     else if (side)
     {
@@ -394,22 +396,34 @@ void SolidRepair::removeCrumbsAndVoids()
   {
     largest = std::max(largest, cells.size());
   }
+  const auto setSides = [this](const std::vector<std::int32_t>& cells, bool inside)
+  {
+    std::for_each(
+      cells.begin(), cells.end(), [&](std::int32_t cell) { this->setSide(cell, inside); });
+  };
+  for (const auto& cells : voids)
+  {
+    if (voids_ == Voids::Filled || cells.size() * kCrumb < largest)
+    {
+      setSides(cells, true);
+    }
+  }
   for (const auto& cells : solids)
   {
-    if (cells.size() * kCrumb < largest)
+    const bool infinite = !tetrahedra_.finite(*std::max_element(cells.begin(), cells.end()));
+    if (cells.size() * kCrumb < largest && !infinite)
     {
-      std::for_each(
-        cells.begin(), cells.end(), [this](std::int32_t cell) { this->setSide(cell, false); });
+      setSides(cells, false);
     }
   }
 }
 
 } // namespace
 
-std::size_t repairSolid(
-  const Tetrahedralization& tetrahedra, std::vector<std::uint8_t>& inside, const Progress& progress)
+std::size_t repairSolid(const Tetrahedralization& tetrahedra, std::vector<std::uint8_t>& inside,
+  Voids voids, const Progress& progress)
 {
-  return SolidRepair(tetrahedra, inside, progress).run();
+  return SolidRepair(tetrahedra, inside, voids, progress).run();
 }
 
 } // namespace hybridtree

@@ -10,6 +10,7 @@
 #include "reconstruction/PointCloud.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
+#include "vtkDataArray.h"
 #include "vtkDataSet.h"
 #include "vtkDoubleArray.h"
 #include "vtkHybridTreeArray.h"
@@ -48,6 +49,39 @@ std::vector<hybridtree::Vec3> readPoints(vtkDataSet* input)
   for (vtkIdType k = 0; k < count; ++k)
   {
     input->GetPoint(k, points[static_cast<std::size_t>(k)].data());
+  }
+  return points;
+}
+
+// Of the chosen points; none if the input has none.
+std::vector<hybridtree::Vec3> readNormals(
+  vtkDataSet* input, const std::vector<std::int32_t>& chosen)
+{
+  vtkDataArray* array = input->GetPointData()->GetNormals();
+  if (!array)
+  {
+    array = input->GetPointData()->GetArray(kNormals);
+  }
+  std::vector<hybridtree::Vec3> normals;
+  if (array && array->GetNumberOfComponents() == 3)
+  {
+    normals.resize(chosen.size());
+    for (std::size_t k = 0; k < chosen.size(); ++k)
+    {
+      array->GetTuple(chosen[k], normals[k].data());
+    }
+  }
+  return normals;
+}
+
+// All points, the chosen ones smoothed.
+std::vector<hybridtree::Vec3> movedPoints(std::vector<hybridtree::Vec3> points,
+  const std::vector<std::int32_t>& chosen, double radius, const hybridtree::Progress& progress)
+{
+  const std::vector<hybridtree::Vec3> places = smoothed(points, chosen, radius, progress);
+  for (std::size_t k = 0; k < chosen.size(); ++k)
+  {
+    points[chosen[k]] = places[k];
   }
   return points;
 }
@@ -204,16 +238,28 @@ void vtkHybridTreeReconstruction::Reconstruct(vtkDataSet* input, vtkPolyData* ou
     chosen = withoutOutliers(all, chosen, this->OutlierNeighbors, this->OutlierDeviation,
       ProgressPart(progress, 0.0, 0.1));
   }
-  chosen = thinned(all, chosen, this->Spacing, ProgressPart(progress, 0.1, 0.2));
+  const std::vector<Vec3> places = this->SmoothingRadius == 0.0
+    ? all
+    : movedPoints(all, chosen, this->SmoothingRadius, ProgressPart(progress, 0.1, 0.15));
+  // Points of several layers have come to lie side by side: closer ones would only make slivers.
+  const double least = this->Spacing >= 0.0 ? 0.25 * this->SmoothingRadius : this->Spacing;
+  chosen =
+    thinned(places, chosen, std::max(this->Spacing, least), ProgressPart(progress, 0.15, 0.2));
 
   std::vector<Vec3> points(chosen.size());
   for (std::size_t k = 0; k < chosen.size(); ++k)
   {
-    points[k] = all[chosen[k]];
+    points[k] = places[chosen[k]];
   }
   ConvectionOptions options;
   options.openPockets = this->OpenPockets;
   options.pocketFactor = this->PocketFactor;
+  options.closeHoles = this->CloseHoles;
+  options.holeFactor = this->HoleFactor;
+  if (this->UseNormals)
+  {
+    options.normals = readNormals(input, chosen);
+  }
   const ProgressPart part(progress, 0.2, 1.0);
   hybridtree::LevelOfDetail detail;
   switch (this->LevelOfDetail)
@@ -272,6 +318,10 @@ void vtkHybridTreeReconstruction::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "OutlierDeviation: " << this->OutlierDeviation << "\n";
   os << indent << "OpenPockets: " << this->OpenPockets << "\n";
   os << indent << "PocketFactor: " << this->PocketFactor << "\n";
+  os << indent << "CloseHoles: " << this->CloseHoles << "\n";
+  os << indent << "HoleFactor: " << this->HoleFactor << "\n";
+  os << indent << "UseNormals: " << this->UseNormals << "\n";
+  os << indent << "SmoothingRadius: " << this->SmoothingRadius << "\n";
   os << indent << "LevelOfDetail: " << this->LevelOfDetail << "\n";
   os << indent << "Tolerance: " << this->Tolerance << "\n";
   os << indent << "TargetVertices: " << this->TargetVertices << "\n";

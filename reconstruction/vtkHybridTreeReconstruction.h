@@ -6,8 +6,9 @@
  * The input is anything with points; its cells are ignored. Points that coincide count once,
  * outliers are removed and the rest is thinned if asked for, or picked by a level of detail while
  * the surface is made; geometric convection over their
- * Delaunay tetrahedralization then gives the surface of a solid ([HT] 3; Chaine 2003): closed,
- * 2-manifold, oriented outward, its vertices a subset of the input's points, bit for bit.
+ * Delaunay tetrahedralization then gives the surface of a solid ([HT] 3; Chaine 2003): closed
+ * (unless holes are to stay open), 2-manifold, oriented outward, its vertices a subset of the
+ * input's points, bit for bit (unless they are smoothed).
  *
  * Output point data: Normals (unit, outward, area weighted), PointIds (index of the input point)
  * and the input's point arrays but for one called Normals. Cell data: SourceId, 0 throughout, with
@@ -92,6 +93,46 @@ public:
    */
   vtkSetMacro(PocketFactor, double);
   vtkGetMacro(PocketFactor, double);
+  ///@}
+
+  ///@{
+  /**
+   * Close the surface over whatever the points miss (default): the surface of a solid. Off: holes
+   * and the border of a sheet stay open, and the surface is an oriented manifold with boundary.
+   */
+  vtkSetMacro(CloseHoles, bool);
+  vtkGetMacro(CloseHoles, bool);
+  vtkBooleanMacro(CloseHoles, bool);
+  ///@}
+
+  ///@{
+  /**
+   * With CloseHoles off: diameter of the smallest empty disc that is a hole, in local mean
+   * distances between points. No unit, above 1, default 5.
+   */
+  vtkSetMacro(HoleFactor, double);
+  vtkGetMacro(HoleFactor, double);
+  ///@}
+
+  ///@{
+  /**
+   * Use the input's point normals, where it has any, to tell inside from outside; default on.
+   * Without normals none are needed; with them cavities are found, and open sheets face their way.
+   */
+  vtkSetMacro(UseNormals, bool);
+  vtkGetMacro(UseNormals, bool);
+  vtkBooleanMacro(UseNormals, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Radius in which points are moved onto a smooth surface first, against noise and the double
+   * layers of overlapping scans: world units, >= 0; 0 (default) leaves all points in place. Points
+   * nearer to each other than a quarter of it then count once, and vertices are no longer the
+   * input's points bit for bit.
+   */
+  vtkSetMacro(SmoothingRadius, double);
+  vtkGetMacro(SmoothingRadius, double);
   ///@}
 
   enum LevelOfDetails
@@ -188,6 +229,10 @@ protected:
   double OutlierDeviation = 2.0;
   bool OpenPockets = true;
   double PocketFactor = 6.0;
+  bool CloseHoles = true;
+  double HoleFactor = 5.0;
+  bool UseNormals = true;
+  double SmoothingRadius = 0.0;
   int LevelOfDetail = ALL_POINTS;
   double Tolerance = 0.01;
   int TargetVertices = 30000;

@@ -3,6 +3,7 @@
 #include "reconstruction/FacetSize.h"
 #include "reconstruction/Front.h"
 #include "reconstruction/Regions.h"
+#include "reconstruction/Sides.h"
 #include "reconstruction/SolidRepair.h"
 #include "reconstruction/Tetrahedralization.h"
 
@@ -246,9 +247,10 @@ TEST(Convection, EachStepLooksWhetherToGoOn)
   const FacetSize sizes(tetrahedra);
   EXPECT_THROW(findRegions(tetrahedra, sizes, 1.0, 6.0, CancelAt(0)), Cancelled);
   const std::vector<Region> regions = findRegions(tetrahedra, sizes, 1.0, 6.0);
-  EXPECT_THROW(Front(tetrahedra, sizes, regions).run(true, CancelAt(0)), Cancelled);
+  EXPECT_THROW(findSides(tetrahedra, sizes, {}, CancelAt(0)), Cancelled);
+  EXPECT_THROW(Front(tetrahedra, sizes, regions).run(true, Voids::Filled, CancelAt(0)), Cancelled);
   std::vector<std::uint8_t> inside(tetrahedra.cellCount(), 0);
-  EXPECT_THROW(repairSolid(tetrahedra, inside, CancelAt(0)), Cancelled);
+  EXPECT_THROW(repairSolid(tetrahedra, inside, Voids::Filled, CancelAt(0)), Cancelled);
 }
 
 struct MeshCase

@@ -300,4 +300,72 @@ TEST(ReconstructionFilter, KeepsItsStateFromLevelToLevel)
   EXPECT_EQ(idsAt(1500), changed);
 }
 
+// Two scans of a torus, a little apart, with noise.
+TEST(ReconstructionFilter, MakesOneSheetOfTwoNoisyLayers)
+{
+  Random random(21);
+  std::vector<Vec3> points;
+  for (const double tube : { 0.39, 0.41 })
+  {
+    for (Vec3 p : randomTorus(1.0, tube, 8000, 22))
+    {
+      points.push_back(p + random.uniform(-0.008, 0.008) * random.direction());
+    }
+  }
+  vtkNew<vtkPolyData> input;
+  fill(input, points, VTK_DOUBLE);
+  vtkNew<vtkHybridTreeReconstruction> filter;
+  filter->SetInputData(input);
+  filter->SetSmoothingRadius(0.15);
+  filter->Update();
+  const TriangleMesh mesh = meshOf(filter->GetOutput());
+  const MeshReport report = checkMesh(mesh);
+  EXPECT_TRUE(report.closedManifold()) << report.describe();
+  EXPECT_EQ(report.components, 1u);
+  EXPECT_EQ(report.genus(), 1);
+  for (const Vec3& p : mesh.points)
+  {
+    EXPECT_LT(distanceToTorus(p, 1.0, 0.4), 0.012);
+  }
+}
+
+TEST(ReconstructionFilter, LeavesHolesOpenAndFollowsNormals)
+{
+  std::vector<Vec3> points;
+  for (const Vec3& p : randomSphere(4000, 23))
+  {
+    if (p.z() < 0.5)
+    {
+      points.push_back(p);
+    }
+  }
+  vtkNew<vtkPolyData> input;
+  fill(input, points, VTK_DOUBLE);
+  vtkNew<vtkFloatArray> normals;
+  normals->SetNumberOfComponents(3);
+  for (const Vec3& p : points)
+  {
+    normals->InsertNextTuple3(-p.x(), -p.y(), -p.z()); // inward
+  }
+  input->GetPointData()->SetNormals(normals);
+  vtkNew<vtkHybridTreeReconstruction> filter;
+  filter->SetInputData(input);
+  filter->CloseHolesOff();
+  filter->Update();
+  const TriangleMesh inward = meshOf(filter->GetOutput());
+  EXPECT_GT(checkMesh(inward).boundaryEdges, 0u);
+  EXPECT_TRUE(checkMesh(inward).oriented() && checkMesh(inward).vertexManifold());
+  double facing = 0.0;
+  for (std::size_t t = 0; t < inward.triangles.size(); ++t)
+  {
+    facing += areaNormal(inward, t).dot(inward.points[inward.triangles[t][0]]);
+  }
+  EXPECT_LT(facing, 0.0);
+  filter->CloseHolesOn();
+  filter->Update();
+  const TriangleMesh closed = meshOf(filter->GetOutput());
+  EXPECT_TRUE(checkMesh(closed).closedManifold());
+  EXPECT_NE(vtkHybridTreeArray::FindTree(filter->GetOutput()), nullptr);
+}
+
 } // namespace
