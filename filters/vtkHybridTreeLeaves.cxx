@@ -75,7 +75,8 @@ Leaf leafOf(const Node& node)
   return leaf;
 }
 
-/// One for each path to a leaf; what is known of a leaf itself is found once.
+/// One for each path to a leaf, or part of one that counts as several; what is known of a leaf
+/// itself is found once.
 void appendLeaves(
   const Node& node, std::unordered_map<const Node*, Leaf>& known, std::vector<Leaf>& leaves)
 {
@@ -91,8 +92,11 @@ void appendLeaves(
     {
       found = known.emplace(&node, leafOf(node)).first;
     }
-    leaves.push_back(found->second);
-    leaves.back().name += " " + std::to_string(leaves.size() - 1);
+    for (int part = 0; part < node.leafCount(); ++part)
+    {
+      leaves.push_back(found->second);
+      leaves.back().name += " " + std::to_string(leaves.size() - 1);
+    }
   }
 }
 

@@ -115,7 +115,7 @@ public:
   ///@{
   /**
    * How far along the skeleton neighbours blend in full, in reaches of the field, >= 0, default
-   * 1.25; from there it fades over one reach. Used when Blending is NEIGHBOURS.
+   * 2.25; from there it fades over one reach. Used when Blending is NEIGHBOURS.
    */
   vtkSetMacro(BlendDistance, double);
   vtkGetMacro(BlendDistance, double);
@@ -194,7 +194,7 @@ protected:
   int Scheme = APPROXIMATING;
   int Level = 2;
   int Blending = NEIGHBOURS;
-  double BlendDistance = 1.25;
+  double BlendDistance = 2.25;
   int Kernel = POLYNOMIAL;
   double InfluenceRatio = 2.0;
   int Exponent = 2;

@@ -15,7 +15,7 @@ void gather(const Node& node, std::vector<MeshPtr>& meshes)
   const std::vector<NodePtr> children = node.children();
   if (children.empty())
   {
-    meshes.push_back(node.leafMesh());
+    meshes.insert(meshes.end(), static_cast<std::size_t>(node.leafCount()), node.leafMesh());
   }
   for (const NodePtr& child : children)
   {

@@ -111,8 +111,8 @@ SubdivisionSkeleton::ShapePtr makeShape(
   }
   RefinedSkeleton refined = subdivide(graph, options.scheme, options.level);
   BlendedField field(options.kernel, options.blending, groupedElements(graph, refined, options));
-  return std::make_shared<SubdivisionSkeleton::Shape>(
-    SubdivisionSkeleton::Shape{ graph, options, std::move(refined), std::move(field) });
+  return std::make_shared<SubdivisionSkeleton::Shape>(SubdivisionSkeleton::Shape{
+    graph, options, std::move(refined), std::move(field), numberPieces(graph) });
 }
 
 template <std::size_t N>
@@ -352,11 +352,12 @@ void SubdivisionSkeleton::membership(PointBatch points, std::int8_t* side) const
 
 void SubdivisionSkeleton::sourceLeaf(PointBatch points, std::int32_t* leaf) const
 {
+  nearestPieces(*this, points, leaf);
   ScratchArray value(points.size);
   this->field(points, value.data());
   for (std::size_t k = 0; k < points.size; ++k)
   {
-    leaf[k] = value[k] != 0.0 ? 0 : -1;
+    leaf[k] = value[k] != 0.0 ? std::max(leaf[k], 0) : -1;
   }
 }
 

@@ -5,6 +5,7 @@
 #include "core/nodes/BlendMesh.h"
 #include "core/nodes/Node.h"
 #include "core/nodes/NodeMaker.h"
+#include "core/subdivision/SkeletonPieces.h"
 #include "core/subdivision/Subdivide.h"
 
 #include <memory>
@@ -51,6 +52,7 @@ public:
     SubdivisionSkeletonOptions options;
     RefinedSkeleton refined;
     BlendedField field;
+    PieceNumbers pieces;
   };
   using ShapePtr = std::shared_ptr<const Shape>;
 
@@ -63,6 +65,7 @@ public:
   const SubdivisionSkeletonOptions& options() const { return shape_->options; }
   /// Of positive sign, whatever the node's.
   const BlendedField& convolution() const { return shape_->field; }
+  const PieceNumbers& pieces() const { return shape_->pieces; }
   /// From the space of the skeleton to that of the node; empty for the identity.
   std::optional<Affine3> map() const;
 
@@ -84,8 +87,9 @@ public:
   /// The side of the field; always -1 where it is negative.
   void membership(PointBatch points, std::int8_t* side) const override;
 
-  /// 0 where the field is not 0, -1 beyond.
+  /// The nearest piece of the skeleton, as pieces() counts them; -1 where the field is 0.
   void sourceLeaf(PointBatch points, std::int32_t* leaf) const override;
+  int leafCount() const override { return this->pieces().count; }
 
   Box3 influenceBounds() const override;
   /// Within about a hundredth of its size of the tightest box.

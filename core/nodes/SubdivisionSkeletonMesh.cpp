@@ -93,34 +93,15 @@ void applyMap(const Affine3& map, TriangleMesh& mesh)
   }
 }
 
-/// Which piece each refined element is a part of, and how far points are from it.
+constexpr std::size_t kTogether = 32; // points whose elements are looked for at once
+
+/// The piece of the refined element that a point is nearest to.
 class PieceFinder
 {
 public:
   explicit PieceFinder(const SubdivisionSkeleton& leaf)
     : leaf_(leaf), inverse_(leaf.map() ? leaf.map()->inverse() : Affine3::Identity())
   {
-    const SkeletonGraph& coarse = leaf.coarse();
-    const SkeletonPieces pieces = findPieces(coarse, SkeletonTopology(coarse));
-    segmentPieces_.resize(coarse.segments.size());
-    trianglePieces_.resize(coarse.triangles.size());
-    std::int32_t number = 0;
-    for (const CurvePiece& curve : pieces.curves)
-    {
-      for (const std::int32_t s : curve.segments)
-      {
-        segmentPieces_[std::size_t(s)] = number;
-      }
-      ++number;
-    }
-    for (const SurfacePiece& surface : pieces.surfaces)
-    {
-      for (const std::int32_t t : surface.triangles)
-      {
-        trianglePieces_[std::size_t(t)] = number;
-      }
-      ++number;
-    }
   }
 
   /// \param points of the node's space, in a small box.
@@ -145,12 +126,12 @@ public:
       for (const std::size_t s : reaching.segments)
       {
         offer(distanceToSegment(p, leaf_.refined().segments[s]),
-          segmentPieces_[std::size_t(leaf_.refined().segmentParents[s])]);
+          leaf_.pieces().segments[std::size_t(leaf_.refined().segmentParents[s])]);
       }
       for (const std::size_t t : reaching.triangles)
       {
         offer(distanceToTriangle(p, leaf_.refined().triangles[t]),
-          trianglePieces_[std::size_t(leaf_.refined().triangleParents[t])]);
+          leaf_.pieces().triangles[std::size_t(leaf_.refined().triangleParents[t])]);
       }
     }
   }
@@ -176,8 +157,6 @@ private:
 
   const SubdivisionSkeleton& leaf_;
   Affine3 inverse_;
-  std::vector<std::int32_t> segmentPieces_; // per coarse segment
-  std::vector<std::int32_t> trianglePieces_;
 };
 
 } // namespace
@@ -200,7 +179,7 @@ TriangleMesh subdivisionSkeletonMesh(const SubdivisionSkeleton& leaf, double edg
               "A shorter edge length may help.";
     return latticeMesh(leaf, edgeLength, ProgressPart(progress, 0.8, 1.0));
   }
-  made->mesh.sourceLeaf.assign(made->mesh.triangles.size(), 0);
+  made->mesh.sourceLeaf = skeletonPieceNumbers(leaf, made->mesh);
   return std::move(made->mesh);
 }
 
@@ -223,10 +202,24 @@ TriangleMesh subdivisionSkeletonPreview(const SubdivisionSkeleton& leaf, const P
   return joinPieces(pieceMeshes(fieldOf(leaf), options, &sharedCache(), progress));
 }
 
+void nearestPieces(const SubdivisionSkeleton& leaf, PointBatch points, std::int32_t* pieces)
+{
+  const PieceFinder finder(leaf);
+  std::vector<Vec3> together; // neighbours in the list are often neighbours in space
+  for (std::size_t first = 0; first < points.size; first += kTogether)
+  {
+    together.clear();
+    for (std::size_t k = first; k < std::min(first + kTogether, points.size); ++k)
+    {
+      together.push_back(points[k]);
+    }
+    finder.find(together, pieces + first);
+  }
+}
+
 std::vector<std::int32_t> skeletonPieceNumbers(
   const SubdivisionSkeleton& leaf, const TriangleMesh& mesh)
 {
-  constexpr std::size_t kTogether = 32; // neighbours in the list are neighbours in space
   const PieceFinder finder(leaf);
   std::vector<std::int32_t> result(mesh.triangles.size());
   parallelFor(result.size(), kTogether,

@@ -21,6 +21,9 @@ TriangleMesh subdivisionSkeletonMesh(const SubdivisionSkeleton& leaf, double edg
 TriangleMesh subdivisionSkeletonPreview(
   const SubdivisionSkeleton& leaf, const Progress& progress = Progress::none());
 
+/// Per point the piece that is nearest in units of the radius there; -1 beyond the reach of all.
+void nearestPieces(const SubdivisionSkeleton& leaf, PointBatch points, std::int32_t* pieces);
+
 /// Per triangle of a mesh of the leaf: the piece that is nearest to its center in units of the
 /// radius there, numbered as in the preview; -1 beyond the reach of all.
 std::vector<std::int32_t> skeletonPieceNumbers(

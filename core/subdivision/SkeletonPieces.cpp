@@ -126,4 +126,29 @@ SkeletonPieces findPieces(const SkeletonGraph& graph, const SkeletonTopology& to
   return Finder(graph, topology).find();
 }
 
+PieceNumbers numberPieces(const SkeletonGraph& graph)
+{
+  const SkeletonPieces pieces = findPieces(graph, SkeletonTopology(graph));
+  PieceNumbers numbers;
+  numbers.segments.resize(graph.segments.size());
+  numbers.triangles.resize(graph.triangles.size());
+  for (const CurvePiece& curve : pieces.curves)
+  {
+    for (const std::int32_t s : curve.segments)
+    {
+      numbers.segments[std::size_t(s)] = numbers.count;
+    }
+    ++numbers.count;
+  }
+  for (const SurfacePiece& surface : pieces.surfaces)
+  {
+    for (const std::int32_t t : surface.triangles)
+    {
+      numbers.triangles[std::size_t(t)] = numbers.count;
+    }
+    ++numbers.count;
+  }
+  return numbers;
+}
+
 } // namespace hybridtree

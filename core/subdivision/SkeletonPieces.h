@@ -37,4 +37,14 @@ struct SkeletonPieces
 
 SkeletonPieces findPieces(const SkeletonGraph& graph, const SkeletonTopology& topology);
 
+/// The piece that each element of the coarse skeleton is a part of.
+struct PieceNumbers
+{
+  std::vector<std::int32_t> segments;
+  std::vector<std::int32_t> triangles;
+  std::int32_t count = 0;
+};
+
+PieceNumbers numberPieces(const SkeletonGraph& graph);
+
 } // namespace hybridtree

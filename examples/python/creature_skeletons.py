@@ -64,10 +64,10 @@ def bretzel():
         first = s.curve(bottom, (0.55 * side, -0.98, 0.0, 0.21))
         landings[side] = s.curve(first, (1.05 * side, -0.7, 0.0, 0.2))
         arms[side] = s.curve(landings[side], (1.38 * side, -0.1, 0.0, 0.2), (1.32 * side, 0.55, 0.0, 0.19),
-                             (0.92 * side, 0.97, 0.0, 0.18), (0.42 * side, 0.85, 0.06 * side, 0.16))
+                             (0.92 * side, 0.97, 0.0, 0.18), (0.42 * side, 0.85, 0.05 * side, 0.16))
     for side in (1, -1):
-        s.curve(arms[side], (0.14 * side, 0.5, 0.16 * side, 0.14), (-0.02 * side, 0.18, 0.2 * side, 0.13),
-                (-0.24 * side, -0.1, 0.22 * side, 0.12), (-0.5 * side, -0.36, 0.22 * side, 0.11),
+        s.curve(arms[side], (0.14 * side, 0.5, 0.12 * side, 0.14), (-0.02 * side, 0.18, 0.145 * side, 0.13),
+                (-0.24 * side, -0.1, 0.16 * side, 0.12), (-0.5 * side, -0.36, 0.16 * side, 0.11),
                 (-0.8 * side, -0.56, 0.12 * side, 0.1), landings[-side])
     return s
 
