@@ -23,14 +23,14 @@ std::shared_ptr<const SubdivisionSkeleton> leafOf(const SkeletonGraph& graph,
     makeSubdivisionSkeleton(graph, options, map));
 }
 
-TEST(SubdivisionSkeletonMesh, OfALeafIsClosedAndNamesItsLeaf)
+TEST(SubdivisionSkeletonMesh, OfALeafIsClosedAndNamesItsPieces)
 {
   const auto leaf = leafOf(test::figure7());
   const MeshPtr mesh = leaf->mesh(0.15);
   EXPECT_TRUE(isClosedManifold(*mesh));
   EXPECT_EQ(mesh->normals.size(), mesh->points.size());
-  EXPECT_EQ(std::count(mesh->sourceLeaf.begin(), mesh->sourceLeaf.end(), 0),
-    std::ptrdiff_t(mesh->triangles.size()));
+  EXPECT_EQ(std::set<std::int32_t>(mesh->sourceLeaf.begin(), mesh->sourceLeaf.end()).size(),
+    static_cast<std::size_t>(leaf->leafCount()));
   EXPECT_TRUE(leaf->warnings().empty());
 }
 
