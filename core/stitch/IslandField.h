@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/base/Dependency.h"
+#include "core/base/Progress.h"
 #include "core/base/Types.h"
 #include "core/mesh/TriangleMesh.h"
 #include "core/polygonize/FieldSource.h"
