@@ -1,8 +1,13 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Sets up what is missing, builds, and runs the examples: a scan is reconstructed, blended, cut and
-# bent. Pictures, meshes and ParaView state files go to demo-output/, or to the folder given.
+# bent. Pictures, meshes and ParaView state files go to demo-output/, or to the folder given:
+#   ./demo.sh [folder]
 set -euo pipefail
+if [ $# -gt 1 ] || [[ "${1:-}" == -* ]]; then
+  echo "usage: ./demo.sh [folder for the results, default demo-output]" >&2
+  exit 2
+fi
 source "$(dirname "${BASH_SOURCE[0]}")/scripts/setup.sh"
 
 setup
