@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkHybridTreePointsAlgorithm.h"
 
+#include "vtkHybridTreeIndexedList.h"
+
 #include <algorithm>
 
 //------------------------------------------------------------------------------
@@ -10,10 +12,8 @@ vtkHybridTreePointsAlgorithm::~vtkHybridTreePointsAlgorithm() = default;
 //------------------------------------------------------------------------------
 void vtkHybridTreePointsAlgorithm::SetNumberOfPoints(int count)
 {
-  const auto size = static_cast<std::size_t>(std::max(count, 0));
-  if (size != this->Points.size())
+  if (hybridtree::setCount(this->Points, count))
   {
-    this->Points.resize(size, { 0.0, 0.0, 0.0 });
     this->Modified();
   }
 }
@@ -27,16 +27,13 @@ int vtkHybridTreePointsAlgorithm::GetNumberOfPoints() const
 //------------------------------------------------------------------------------
 void vtkHybridTreePointsAlgorithm::SetPoint(int index, double x, double y, double z)
 {
-  if (index < 0 || index >= this->GetNumberOfPoints())
+  if (!hybridtree::has(this->Points, index))
   {
     vtkErrorMacro("There is no point " << index << ": Points has " << this->GetNumberOfPoints()
                                        << ". Call SetNumberOfPoints first.");
-    return;
   }
-  const std::array<double, 3> point{ x, y, z };
-  if (this->Points[static_cast<std::size_t>(index)] != point)
+  else if (hybridtree::setElement(this->Points, index, { x, y, z }))
   {
-    this->Points[static_cast<std::size_t>(index)] = point;
     this->Modified();
   }
 }
@@ -44,9 +41,9 @@ void vtkHybridTreePointsAlgorithm::SetPoint(int index, double x, double y, doubl
 //------------------------------------------------------------------------------
 void vtkHybridTreePointsAlgorithm::GetPoint(int index, double point[3]) const
 {
-  const bool exists = index >= 0 && index < this->GetNumberOfPoints();
-  const std::array<double, 3> value =
-    exists ? this->Points[static_cast<std::size_t>(index)] : std::array<double, 3>{};
+  const std::array<double, 3> value = hybridtree::has(this->Points, index)
+    ? this->Points[static_cast<std::size_t>(index)]
+    : std::array<double, 3>{};
   std::copy(value.begin(), value.end(), point);
 }
 
@@ -55,9 +52,6 @@ void vtkHybridTreePointsAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Points:";
-  for (const std::array<double, 3>& point : this->Points)
-  {
-    os << " (" << point[0] << ", " << point[1] << ", " << point[2] << ")";
-  }
+  hybridtree::print(this->Points, os);
   os << "\n";
 }

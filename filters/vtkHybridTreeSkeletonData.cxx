@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <tuple>
 
@@ -57,6 +58,11 @@ public:
     {
       double p[3];
       this->Input->GetPoint(id, p);
+      if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2]))
+      {
+        throw InvalidGeometry("Point " + std::to_string(id) +
+          " of the input has a coordinate that is not finite; correct or remove it.");
+      }
       const auto [place, isNew] = this->Places.try_emplace(
         std::make_tuple(p[0], p[1], p[2]), static_cast<int>(this->Graph.points.size()));
       number = place->second;
@@ -144,8 +150,7 @@ SkeletonGraph toSkeleton(vtkPolyData* input, const std::string& radiusArray, dou
   {
     throw InvalidGeometry("The input has " + std::to_string(input->GetNumberOfPoints()) +
       " points, but neither lines nor polygons, which make the skeleton. Take the Skeleton Editor, "
-      "or "
-      "any polydata with lines or triangles.");
+      "or any polydata with lines or triangles.");
   }
   vtkNew<vtkTriangleFilter> split; // polylines into segments, polygons and strips into triangles
   vtkNew<vtkPolyData> whole;

@@ -16,10 +16,11 @@ namespace hybridtree
 /// Lines and polylines of a polydata as segments, polygons and strips as triangles; points at
 /// exactly the same place become one, so that pieces appended to each other hang together.
 /// Vertices, and points without a cell, do not count.
-/// \param radiusArray point array of one component with the radii; "Automatic":
-/// Radius, if it is there. "None", empty, or not there: `radius` everywhere. Of points that become one the first gives the radius.
+/// \param radiusArray point array of one component with the radii. "Automatic": Radius, if it is
+/// there. "None", empty, or Automatic without one: `radius` everywhere. Of points that become one
+/// the first gives the radius.
 /// \throws InvalidParameter for an array that is not there; InvalidGeometry where there are neither
-/// lines nor polygons, and as validate().
+/// lines nor polygons, for points that are not finite, and as validate().
 SkeletonGraph toSkeleton(vtkPolyData* input, const std::string& radiusArray, double radius);
 
 ///@{

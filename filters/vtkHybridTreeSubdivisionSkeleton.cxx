@@ -74,8 +74,16 @@ vtkHybridTreeSubdivisionSkeleton::MeshPtr vtkHybridTreeSubdivisionSkeleton::Make
   {
     return this->Superclass::MakeMesh(node, progress);
   }
-  return std::make_shared<hybridtree::TriangleMesh>(hybridtree::subdivisionSkeletonPreview(
-    static_cast<const hybridtree::SubdivisionSkeleton&>(node), progress));
+  const auto mesh =
+    std::make_shared<hybridtree::TriangleMesh>(hybridtree::subdivisionSkeletonPreview(
+      static_cast<const hybridtree::SubdivisionSkeleton&>(node), progress));
+  if (mesh->triangles.empty() && !this->Negative)
+  {
+    vtkWarningMacro(
+      "The skeleton has no surface: it is too short beside its radius. Make the radius "
+      "or InfluenceRatio smaller.");
+  }
+  return mesh;
 }
 
 //------------------------------------------------------------------------------

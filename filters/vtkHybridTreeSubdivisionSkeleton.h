@@ -61,8 +61,8 @@ public:
   ///@{
   /**
    * Name of the point array with the radius of the surface, world units, > 0. "Automatic"
-   * (default): Radius, where there is an array of this name. "None", empty, or no such array: the
-   * property Radius everywhere.
+   * (default): Radius, where there is an array of this name, else the property Radius everywhere.
+   * "None" or empty: the property Radius. Any other name that is not there is an error.
    */
   vtkSetStdStringFromCharMacro(RadiusArray);
   vtkGetCharFromStdStringMacro(RadiusArray);
@@ -115,8 +115,8 @@ public:
 
   ///@{
   /**
-   * How far along the skeleton neighbours blend in full, in reaches of the field, >= 0, default
-   * 2.25; from there it fades over one reach. Used when Blending is NEIGHBOURS.
+   * How far along the skeleton neighbours blend in full, in reaches of the field, 0.5 to 100,
+   * default 2.25; from there it fades over one reach. Used when Blending is NEIGHBOURS.
    */
   vtkSetMacro(BlendDistance, double);
   vtkGetMacro(BlendDistance, double);
@@ -133,7 +133,7 @@ public:
 
   ///@{
   /**
-   * How far the field reaches, in radii of the surface, > 1, default 2.
+   * How far the field reaches, in radii of the surface, 1.05 to 100, default 2.
    */
   vtkSetMacro(InfluenceRatio, double);
   vtkGetMacro(InfluenceRatio, double);

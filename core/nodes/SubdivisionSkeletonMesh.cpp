@@ -173,6 +173,11 @@ TriangleMesh subdivisionSkeletonMesh(const SubdivisionSkeleton& leaf, double edg
   options.refinement = leaf.options().refinement;
   std::optional<StitchedMesh> made =
     skeletonMesh(fieldOf(leaf), options, &sharedCache(), ProgressPart(progress, 0.0, 0.8));
+  if (made && made->mesh.triangles.empty())
+  {
+    warning = "The skeleton has no surface: it is too short beside its radius, or too thin for the "
+              "edge length. Change its radius, or make InfluenceRatio or the edge length smaller.";
+  }
   if (!made)
   {
     warning = "The meshes of the skeleton's pieces could not be joined; all of it was polygonized. "

@@ -67,6 +67,7 @@ std::vector<double> Maker::sampleLengths() const
   while (s < last)
   {
     result.push_back(s);
+    requirePieceSize(kAround / kSamples * double(result.size()));
     s += path_.radius(s) / kSamples;
   }
   result.push_back(last);

@@ -9,6 +9,12 @@
 namespace hybridtree
 {
 
+/// A piece may have so many vertices; a thinner one would take minutes and all memory.
+inline constexpr double kMaxPieceVertices = 2e6;
+
+/// \throws TooLarge for more.
+void requirePieceSize(double vertices);
+
 /// A coarse closed mesh around one piece of a skeleton, with an axis for each vertex
 /// ([SUB] 4.1, Figures 8 and 9). Closed, oriented outward, a 2-manifold; empty where the piece has
 /// no surface, because nowhere along it the field reaches T.
@@ -24,6 +30,7 @@ struct PieceCage
 /// where the field is too weak at the very end of the curve these begin where it is strong enough.
 /// A curve along which the field falls below T has a closed part on both sides of each such place.
 /// \param refined of the coarse skeleton that the piece is of, \param level times.
+/// \throws TooLarge where the radius is tiny beside the length.
 PieceCage curveCage(
   const CurvePiece& piece, const RefinedSkeleton& refined, int level, const FieldSource& field);
 

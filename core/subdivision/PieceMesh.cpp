@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/subdivision/PieceMesh.h"
 
+#include "core/base/Error.h"
+
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <unordered_map>
 
 namespace hybridtree
@@ -35,11 +38,13 @@ public:
     mesh_.triangles = cage.triangles;
   }
 
-  PieceMesh run(const PieceCage& cage, const std::vector<SkeletonAxis>& before)
+  PieceMesh run(
+    const PieceCage& cage, const std::vector<SkeletonAxis>& before, const Progress& progress)
   {
     placeCage(cage, before);
     for (int round = 0; round < kMaxRounds && splitEdges(); ++round)
     {
+      progress.check();
       divideTriangles();
     }
     return std::move(mesh_);
@@ -165,6 +170,7 @@ bool Refiner::splitEdges()
     }
   }
   addLongestEdges(split);
+  requirePieceSize(double(mesh_.points.size() + split.size()));
   addMiddles(split);
   return !split.empty();
 }
@@ -305,10 +311,22 @@ void Refiner::divide(const Triangle& triangle, std::vector<Triangle>& result) co
 
 } // namespace
 
-PieceMesh refineCage(const PieceCage& cage, const FieldSource& field,
-  const PieceMeshOptions& options, const std::vector<SkeletonAxis>& before)
+void requirePieceSize(double vertices)
 {
-  return Refiner(cage, field, options).run(cage, before);
+  if (vertices > kMaxPieceVertices)
+  {
+    throw TooLarge("The mesh around one piece of the skeleton would have more than " +
+      std::to_string(std::int64_t(kMaxPieceVertices)) +
+      " vertices: its radius is tiny beside its size, or Refinement too fine. Make the radius, "
+      "Refinement or the edge length larger.");
+  }
+}
+
+PieceMesh refineCage(const PieceCage& cage, const FieldSource& field,
+  const PieceMeshOptions& options, const std::vector<SkeletonAxis>& before,
+  const Progress& progress)
+{
+  return Refiner(cage, field, options).run(cage, before, progress);
 }
 
 } // namespace hybridtree

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "core/base/Progress.h"
 #include "core/subdivision/PieceCage.h"
 
 #include <cstdint>
@@ -38,7 +39,9 @@ struct PieceMesh
 ///
 /// \param before axes of an earlier mesh of this piece, for a quick start. Those that are elsewhere
 /// now, by more than a quarter of the radius, start anew; so do all when their number differs.
+/// \throws TooLarge where the radius is tiny beside the piece; Cancelled.
 PieceMesh refineCage(const PieceCage& cage, const FieldSource& field,
-  const PieceMeshOptions& options, const std::vector<SkeletonAxis>& before = {});
+  const PieceMeshOptions& options, const std::vector<SkeletonAxis>& before = {},
+  const Progress& progress = Progress::none());
 
 } // namespace hybridtree

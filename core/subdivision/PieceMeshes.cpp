@@ -225,8 +225,8 @@ std::vector<PieceMeshPtr> pieceMeshes(const SkeletonField& skeleton,
           : surfaceCage(
               pieces.surfaces[k - curves], skeleton.refined, skeleton.level, skeleton.field);
         const PieceMeshPtr before = cache ? cache->last(k) : nullptr;
-        result[k] = std::make_shared<PieceMesh>(refineCage(
-          cage, skeleton.field, options, before ? before->axes : std::vector<SkeletonAxis>()));
+        result[k] = std::make_shared<PieceMesh>(refineCage(cage, skeleton.field, options,
+          before ? before->axes : std::vector<SkeletonAxis>(), progress));
         if (cache)
         {
           cache->insert(key, result[k]);

@@ -51,8 +51,10 @@ void checkCorners(const SkeletonGraph& graph,
     std::sort(corners.begin(), corners.end());
     if (corners.front() < 0 || std::size_t(corners.back()) >= graph.points.size())
     {
-      fail(
-        kind, k, "uses a point that is not there; indices are 0 to the number of points less 1.");
+      const std::int32_t missing = corners.front() < 0 ? corners.front() : corners.back();
+      fail(kind, k,
+        "uses point " + std::to_string(missing) + ", which is not there; there are " +
+          std::to_string(graph.points.size()) + " points, numbered from 0.");
     }
     if (std::adjacent_find(corners.begin(), corners.end()) != corners.end())
     {

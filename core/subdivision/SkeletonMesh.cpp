@@ -3,6 +3,7 @@
 
 #include "core/mesh/Dust.h"
 
+#include <algorithm>
 #include <cmath>
 #include <unordered_map>
 #include <unordered_set>
@@ -242,6 +243,11 @@ CellSet cellsWherePiecesMeet(const std::vector<PieceMeshPtr>& pieces, const Skel
 std::optional<StitchedMesh> skeletonMesh(const SkeletonField& skeleton,
   const SkeletonMeshOptions& options, PieceMeshCache* cache, const Progress& progress)
 {
+  const std::vector<double>& radii = skeleton.refined.radii;
+  if (*std::max_element(radii.begin(), radii.end()) < kDust * options.edgeLength)
+  {
+    return StitchedMesh(); // all of it would be dust
+  }
   PieceMeshOptions pieceOptions;
   pieceOptions.refinement = options.refinement;
   pieceOptions.longestEdge = kLongest * options.edgeLength;

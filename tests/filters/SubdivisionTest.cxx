@@ -14,10 +14,12 @@
 #include "vtkPlaneSource.h"
 #include "vtkPointData.h"
 #include "vtkPointSource.h"
+#include "vtkPoints.h"
 #include "vtkPolyData.h"
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
 #include <utility>
 
@@ -218,6 +220,45 @@ TEST(SubdivisionSkeleton, PreviewOverlapsAndKeepsTheTree)
   EXPECT_EQ(checkMesh(pieces).components, 2); // a curve and a leaf
   EXPECT_TRUE(isClosedManifold(pieces));
   expectSameField(*tree, *plant->GetTree());
+}
+
+TEST(SubdivisionSkeleton, NoSurfaceIsTold)
+{
+  vtkNew<vtkLineSource> line;
+  vtkNew<vtkHybridTreeSubdivisionSkeleton> shape;
+  shape->SetInputConnection(line->GetOutputPort());
+  shape->SetRadius(100.0);
+  for (const bool preview : { false, true })
+  {
+    shape->SetPreview(preview);
+    const Messages messages(shape);
+    shape->Update();
+    EXPECT_NE(messages.warnings.find("no surface"), std::string::npos) << messages.warnings;
+    EXPECT_EQ(shape->GetOutput()->GetNumberOfPoints(), 0);
+    EXPECT_TRUE(shape->GetTree());
+  }
+  const Messages messages(shape);
+  shape->NegativeOn(); // as it should be
+  shape->Update();
+  EXPECT_EQ(messages.warnings, "");
+}
+
+TEST(SubdivisionSkeleton, PointThatIsNotFiniteIsNamed)
+{
+  vtkNew<vtkPoints> points;
+  points->InsertNextPoint(0, 0, 0);
+  points->InsertNextPoint(1, 0, 0);
+  points->InsertNextPoint(std::nan(""), 1, 0);
+  vtkNew<vtkCellArray> lines;
+  lines->InsertNextCell({ 0, 1, 2 });
+  vtkNew<vtkPolyData> bent;
+  bent->SetPoints(points);
+  bent->SetLines(lines);
+  vtkNew<vtkHybridTreeSubdivisionSkeleton> shape;
+  shape->SetInputData(bent);
+  const Messages messages(shape);
+  shape->Update();
+  EXPECT_NE(messages.errors.find("Point 2"), std::string::npos) << messages.errors;
 }
 
 TEST(SubdivisionSkeleton, WrongInputIsNamed)

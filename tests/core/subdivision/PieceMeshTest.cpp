@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/subdivision/PieceMeshes.h"
 
+#include "core/base/Error.h"
 #include "core/mesh/MeshChecks.h"
 #include "core/mesh/MeshDistance.h"
 #include "tests/core/subdivision/SkeletonFieldCase.h"
@@ -202,6 +203,16 @@ TEST(PieceMesh, WhatHasNoSurfaceHasNoMesh)
   for (const PieceMeshPtr& piece : pieceMeshes(shape.field(), {}))
   {
     EXPECT_TRUE(piece->triangles.empty());
+  }
+}
+
+TEST(PieceMesh, RefusesARadiusThatIsTinyBesideTheLength)
+{
+  for (const double radius : { 1e-6, 1e-9 })
+  {
+    const SkeletonFieldCase thread({ { { 0, 0, 0 }, { 1, 0.2, 0 }, { 2, 0, 0 } },
+      { radius, radius, radius }, { { 0, 1 }, { 1, 2 } }, {} });
+    EXPECT_THROW(pieceMeshes(thread.field(), {}, nullptr), TooLarge);
   }
 }
 

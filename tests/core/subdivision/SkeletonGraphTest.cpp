@@ -34,8 +34,8 @@ TEST(SkeletonGraph, RefusesWhatNoSkeletonCanBeAndNamesIt)
     { [](Graph& g) { g.radii[3] = 0.0; }, "point 3 has the radius" },
     { [](Graph& g) { g.radii[1] = INFINITY; }, "point 1 has the radius" },
     { [](Graph& g) { g.radii.pop_back(); }, "5 points and 4 radii" },
-    { [](Graph& g) { g.segments[0][1] = 5; }, "segment 0 uses a point that is not there" },
-    { [](Graph& g) { g.triangles[1][0] = -1; }, "triangle 1 uses a point that is not there" },
+    { [](Graph& g) { g.segments[0][1] = 5; }, "segment 0 uses point 5, which is not there" },
+    { [](Graph& g) { g.triangles[1][0] = -1; }, "triangle 1 uses point -1, which is not there" },
     { [](Graph& g) { g.segments[0][1] = 3; }, "segment 0 uses a point twice" },
     { [](Graph& g) {
        g.segments.push_back({ 4, 3 });
