@@ -3,10 +3,12 @@
 
 #include "reconstruction/FacetSize.h"
 #include "reconstruction/Front.h"
+#include "reconstruction/Holes.h"
 #include "reconstruction/Regions.h"
 #include "reconstruction/Sides.h"
 #include "reconstruction/SolidBoundary.h"
 #include "reconstruction/SolidRepair.h"
+#include "reconstruction/SpatialOrder.h"
 
 #include "core/base/Error.h"
 
@@ -139,11 +141,40 @@ void checkMemory(std::size_t points, std::size_t limit)
 
 void checkOptions(std::size_t points, const ConvectionOptions& options)
 {
-  if (!(options.pocketFactor > 1.0) || !std::isfinite(options.pocketFactor))
+  if (!(options.pocketFactor >= 1.0) || !std::isfinite(options.pocketFactor))
   {
-    throw InvalidParameter("PocketFactor", options.pocketFactor, "a finite number above 1");
+    throw InvalidParameter("PocketFactor", options.pocketFactor, "a finite number from 1 on");
+  }
+  if (!options.closeHoles)
+  {
+    checkHoleFactor(options.holeFactor);
   }
   checkMemory(points, options.maxMemory);
+}
+
+void checkExtent(const std::vector<Vec3>& points)
+{
+  checkFinite(points);
+  constexpr double kLargest = 1e50;
+  Box3 box;
+  for (const Vec3& point : points)
+  {
+    box.extend(point);
+  }
+  if (points.empty())
+  {
+    return;
+  }
+  const double most =
+    std::max(box.min().lpNorm<Eigen::Infinity>(), box.max().lpNorm<Eigen::Infinity>());
+  const double extent = box.sizes().maxCoeff();
+  if (most > kLargest || (extent > 0.0 && extent < 1.0 / kLargest))
+  {
+    std::ostringstream text;
+    text << "The points have coordinates up to " << most << " and an extent of " << extent
+         << ": scale them, to an extent above 1e-50 and coordinates up to 1e50.";
+    throw InvalidGeometry(text.str());
+  }
 }
 
 void checkNormals(std::size_t points, const ConvectionOptions& options)

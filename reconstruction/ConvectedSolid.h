@@ -16,6 +16,11 @@ namespace hybridtree
 /// \throws InvalidParameter, and TooLarge if the triangulation of so many points does not fit.
 void checkOptions(std::size_t points, const ConvectionOptions& options);
 
+/// \throws InvalidGeometry for coordinates that are not finite or beyond 1e50, or an extent below
+/// 1e-50: products of as many lengths as there are in a normal or a volume would leave the range of
+/// double.
+void checkExtent(const std::vector<Vec3>& points);
+
 /// \throws InvalidParameter for another number of normals than points or 0, InvalidGeometry for one
 /// that is not finite.
 void checkNormals(std::size_t points, const ConvectionOptions& options);

@@ -79,6 +79,7 @@ ReconstructedSurface reconstruct(
   const std::vector<Vec3>& points, const ConvectionOptions& options, const Progress& progress)
 {
   checkOptions(points.size(), options);
+  checkExtent(points);
   checkNormals(points.size(), options);
   const std::vector<std::int32_t> order = spatialOrder(points, progress);
   const std::vector<Vec3> ordered = inOrder(points, order);

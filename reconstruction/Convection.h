@@ -19,13 +19,13 @@ struct ConvectionOptions
   bool openPockets = true;
   /// A facet whose longest edge exceeds this many times the local spacing (FacetSize.h) is the
   /// mouth of a pocket whatever lies behind it; a smaller one only where what lies behind is not
-  /// much wider. No unit, > 1, default 6. Raise it where the surface breaks in through a gap.
+  /// much wider. No unit, >= 1, default 6. Raise it where the surface breaks in through a gap.
   double pocketFactor = 6.0;
   /// The surface of a solid, closed over whatever is missing. Off: holes of the sampling are left
   /// open, and so is the border of a sheet (Holes.h); the surface then is a manifold with boundary.
   bool closeHoles = true;
   /// Without closeHoles: diameter of the smallest empty disc that is a hole, in local mean
-  /// distances between points. No unit, > 1.
+  /// distances between points. No unit, >= 1.
   double holeFactor = 5.0;
   /// Normals of the points, outward, any length, 0 where unknown; or empty: none. They tell inside
   /// from outside where they are known, so that cavities closed off all around are found too.
@@ -70,8 +70,9 @@ struct ReconstructedSurface
 ///
 /// \param points in any order; coincident points count once. Cost O(n log n) for points on a
 /// surface, about 1 KB of memory a point.
-/// \throws InvalidGeometry for points that are not finite, fewer than four different ones, or all
-/// in one plane. \throws InvalidParameter. \throws TooLarge before it starts. \throws Cancelled.
+/// \throws InvalidGeometry for points that are not finite or out of the range of checkExtent(),
+/// fewer than four different ones, or all in one plane. \throws InvalidParameter. \throws TooLarge
+/// before it starts. \throws Cancelled.
 ReconstructedSurface reconstruct(const std::vector<Vec3>& points,
   const ConvectionOptions& options = {}, const Progress& progress = Progress::none());
 

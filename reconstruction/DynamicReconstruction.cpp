@@ -23,6 +23,8 @@ constexpr double kFlat = 0.35;
 constexpr double kFirstShare = 0.85;
 // A subset for a tolerance this many times finer than the wanted one has too many vertices.
 constexpr double kTooFine = 1.5;
+// A surface of fewer vertices than this share of the wanted ones has missed something.
+constexpr double kFewVertices = 0.9;
 // One that is this many times coarser, in vertices or tolerance, may have missed what matters now.
 constexpr double kTooCoarse = 2.5;
 
@@ -45,6 +47,16 @@ void checkDetail(const LevelOfDetail& detail)
   {
     throw InvalidParameter("RefineTolerance", detail.regionTolerance, "a finite length from 0 on");
   }
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    for (const double end : { detail.region.min()[axis], detail.region.max()[axis] })
+    {
+      if (!std::isfinite(end))
+      {
+        throw InvalidParameter("RefineCenter +- RefineLengths / 2", end, "a finite coordinate");
+      }
+    }
+  }
 }
 
 } // namespace
@@ -58,6 +70,7 @@ DynamicReconstruction::DynamicReconstruction(
 
 void DynamicReconstruction::add(const std::vector<Vec3>& points, const Progress& progress)
 {
+  checkExtent(points);
   const std::size_t known = points_.size();
   for (const std::int32_t k : spatialOrder(points, progress))
   {
@@ -402,6 +415,12 @@ void DynamicReconstruction::warn(
       " are too few to tell inside from outside: the surface has " + std::to_string(vertices) +
       ".");
   }
+  if (double(vertices) < kFewVertices * double(detail.vertices))
+  {
+    warnings.push_back("The surface could take up only " + std::to_string(vertices) + " of " +
+      std::to_string(detail.vertices) +
+      " TargetVertices: the points are on too open a surface, or scattered. Use all points.");
+  }
   if (detail.tolerance > 0.0)
   {
     this->warnOf(Phase::ofLevel(detail), "Tolerance", warnings);
@@ -428,7 +447,7 @@ void DynamicReconstruction::warnOf(
   std::ostringstream text;
   text << far.size() << " of " << points_.size() << " points are farther than " << name << " "
        << phase.tolerance << " from the surface, the farthest by " << most
-       << ": inside of it, far from all others, or where it would touch itself.";
+       << ": inside of it, far from all others, on an open sheet, or where it would touch itself.";
   warnings.push_back(text.str());
 }
 

@@ -39,8 +39,7 @@ namespace hybridtree
 class DynamicReconstruction
 {
 public:
-  /// \throws InvalidGeometry for a coordinate that is not finite (names the point). \throws
-  /// Cancelled.
+  /// \throws InvalidGeometry as reconstruct(), and Cancelled.
   explicit DynamicReconstruction(const std::vector<Vec3>& points,
     const ConvectionOptions& options = {}, const Progress& progress = Progress::none());
   DynamicReconstruction(const DynamicReconstruction&) = delete;

@@ -197,6 +197,10 @@ void DynamicReconstruction::convectAgain(const Phase& phase, const Progress& pro
     return;
   }
   std::vector<std::int32_t> far = this->farPoints(phase);
+  if (far.empty())
+  {
+    return;
+  }
   std::size_t fewest = far.size();
   std::ptrdiff_t topology = this->eulerNumber();
   State best = *state_;

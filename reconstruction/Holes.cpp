@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace hybridtree
@@ -89,6 +90,24 @@ void growHoles(const ReconstructedSurface& surface, const std::vector<double>& s
   }
 }
 
+// Neighbours are found in PCL's float, in which a few points far off leave no room for the others.
+void checkResolution(const std::vector<Vec3>& points, std::vector<double> spacing)
+{
+  constexpr double kLeastSteps = 10.0; // of float, to a spacing
+  Box3 box;
+  for (const Vec3& point : points)
+  {
+    box.extend(point);
+  }
+  const auto median = spacing.begin() + static_cast<std::ptrdiff_t>(spacing.size() / 2);
+  std::nth_element(spacing.begin(), median, spacing.end());
+  if (*median < kLeastSteps * double(std::numeric_limits<float>::epsilon()) * box.diagonal().norm())
+  {
+    throw InvalidGeometry("Some points are so far from the others that holes cannot be seen among "
+                          "these: remove outliers, or close holes.");
+  }
+}
+
 Removed trianglesOverHoles(const ReconstructedSurface& surface, const std::vector<Vec3>& points,
   double factor, const Progress& progress)
 {
@@ -96,6 +115,7 @@ Removed trianglesOverHoles(const ReconstructedSurface& surface, const std::vecto
   std::vector<double> spacing = surfaceDensity(points, all, kNeighbors, progress);
   std::transform(spacing.begin(), spacing.end(), spacing.begin(),
     [](double density) { return 1.0 / std::sqrt(density); });
+  checkResolution(points, spacing);
 
   const TriangleMesh& mesh = surface.mesh;
   std::vector<std::size_t> triangleOfPlace;
@@ -269,13 +289,18 @@ void removeTriangles(ReconstructedSurface& surface, const Removed& removed)
 
 } // namespace
 
+void checkHoleFactor(double factor)
+{
+  if (!(factor >= 1.0) || !std::isfinite(factor))
+  {
+    throw InvalidParameter("HoleFactor", factor, "a finite number from 1 on");
+  }
+}
+
 std::size_t openHoles(ReconstructedSurface& surface, const std::vector<Vec3>& points, double factor,
   const Progress& progress)
 {
-  if (!(factor > 1.0) || !std::isfinite(factor))
-  {
-    throw InvalidParameter("HoleFactor", factor, "a finite number above 1");
-  }
+  checkHoleFactor(factor);
   Removed removed = trianglesOverHoles(surface, points, factor, progress);
   if (std::count(removed.begin(), removed.end(), 1) == 0)
   {
@@ -286,6 +311,10 @@ std::size_t openHoles(ReconstructedSurface& surface, const std::vector<Vec3>& po
     progress.check();
   }
   removeCrumbs(surface.mesh, removed);
+  if (std::count(removed.begin(), removed.end(), 0) == 0)
+  {
+    throw InvalidParameter("HoleFactor", factor, "larger: so nothing of the surface is left");
+  }
   removeTriangles(surface, removed);
   setAreaNormals(surface.mesh);
   return static_cast<std::size_t>(std::count(removed.begin(), removed.end(), 1));

@@ -19,10 +19,14 @@ namespace hybridtree
 /// hold), and so are pieces of fewer than a hundredth of the triangles of the largest: the result
 /// is an oriented manifold with boundary. \param surface of which the triangles, points, normals
 /// and pointIds become fewer. \param points all of the input, also those that are no vertices.
-/// \param factor no unit, > 1.
-/// \throws InvalidParameter, Cancelled.
+/// \param factor no unit, >= 1.
+/// \throws InvalidParameter, also if nothing would be left. \throws InvalidGeometry where a few
+/// points are some 1e6 spacings from the others. \throws Cancelled.
 /// \returns how many triangles were taken out.
 std::size_t openHoles(ReconstructedSurface& surface, const std::vector<Vec3>& points, double factor,
   const Progress& progress = Progress::none());
+
+/// \throws InvalidParameter for a factor that openHoles() would refuse.
+void checkHoleFactor(double factor);
 
 } // namespace hybridtree

@@ -12,7 +12,8 @@ namespace hybridtree
 namespace
 {
 
-// Of what the kept state depends on. More normals may have come, with more points.
+// Of what the kept state depends on, which holes do not. More normals may have come, with more
+// points.
 bool same(const ConvectionOptions& now, const ConvectionOptions& before)
 {
   return now.openPockets == before.openPockets && now.pocketFactor == before.pocketFactor &&
@@ -26,6 +27,11 @@ bool same(const ConvectionOptions& now, const ConvectionOptions& before)
 ReconstructedSurface KeptReconstruction::update(const std::vector<Vec3>& points,
   const LevelOfDetail& detail, const ConvectionOptions& options, const Progress& progress)
 {
+  if (points.size() <= detail.vertices)
+  {
+    return reconstruct(points, options, progress); // nothing to choose from
+  }
+  checkOptions(detail.vertices, options);
   checkNormals(points.size(), options);
   std::unique_ptr<DynamicReconstruction> used = std::exchange(kept_, nullptr);
   const ProgressPart first(progress, 0.0, 0.05);

@@ -26,6 +26,11 @@ namespace
 {
 
 constexpr std::size_t kGrain = 1024;
+// Where a point may have all others as neighbours.
+constexpr std::size_t kFewer = 64;
+// How many times closer than the radius of smoothing points stay apart: half of what is wanted
+// afterwards, since points of several layers come to lie side by side.
+constexpr double kSmoothingSteps = 8.0;
 
 using Cloud = pcl::PointCloud<pcl::PointXYZ>;
 
@@ -57,7 +62,11 @@ FloatCloud toFloat(const std::vector<Vec3>& points, const std::vector<std::int32
   }
   FloatCloud result;
   const double diagonal = chosen.empty() ? 0.0 : box.diagonal().stableNorm();
-  result.scale = diagonal > 0.0 && std::isfinite(diagonal) ? 2.0 / diagonal : 1.0;
+  if (!std::isfinite(2.0 * diagonal) || (diagonal > 0.0 && !std::isfinite(2.0 / diagonal)))
+  {
+    throw InvalidGeometry("The points' extent is more than can be computed with: scale them.");
+  }
+  result.scale = diagonal > 0.0 ? 2.0 / diagonal : 1.0;
   result.center = chosen.empty() ? Vec3(Vec3::Zero()) : box.center();
   result.cloud->reserve(chosen.size());
   for (const std::int32_t point : chosen)
@@ -136,32 +145,40 @@ Vec3 projected(const Vec3& point, const std::vector<Vec3>& around, double radius
   return std::isfinite(height) ? Vec3(point + height * radius * axes.col(0)) : point;
 }
 
+// Calls, on several threads, visit(k, squares) for each point of the cloud: the squared distances
+// to itself and its nearest neighbours, in rising order. \pre there are more points than neighbors.
+template <typename Visit>
+void forNeighbors(
+  const FloatCloud& scaled, int neighbors, const Progress& progress, const Visit& visit)
+{
+  progress.check();
+  pcl::search::KdTree<pcl::PointXYZ> tree;
+  tree.setInputCloud(scaled.cloud);
+  parallelFor(scaled.cloud->size(), kGrain,
+    [&](std::size_t begin, std::size_t end)
+    {
+      progress.check();
+      pcl::Indices nearest;
+      std::vector<float> squares;
+      for (std::size_t k = begin; k < end; ++k)
+      {
+        tree.nearestKSearch((*scaled.cloud)[k], neighbors + 1, nearest, squares);
+        visit(k, squares);
+      }
+    });
+}
+
 // Per chosen point, the mean distance to its nearest neighbours, in units of the whole's size.
 // \pre there are more points than neighbors.
 std::vector<double> meanDistances(const std::vector<Vec3>& points,
   const std::vector<std::int32_t>& chosen, int neighbors, const Progress& progress)
 {
-  progress.check();
-  const FloatCloud scaled = toFloat(points, chosen);
-  pcl::search::KdTree<pcl::PointXYZ> tree;
-  tree.setInputCloud(scaled.cloud);
   std::vector<double> distances(chosen.size());
-  parallelFor(chosen.size(), kGrain,
-    [&](std::size_t begin, std::size_t end)
+  forNeighbors(toFloat(points, chosen), neighbors, progress,
+    [&](std::size_t k, const std::vector<float>& squares)
     {
-      progress.check();
-      pcl::Indices nearest;
-      std::vector<float> squared;
-      for (std::size_t k = begin; k < end; ++k)
-      {
-        tree.nearestKSearch((*scaled.cloud)[k], neighbors + 1, nearest, squared); // and itself
-        double sum = 0.0;
-        for (const float distance : squared)
-        {
-          sum += std::sqrt(double(distance));
-        }
-        distances[k] = sum / neighbors;
-      }
+      const auto add = [](double sum, float square) { return sum + std::sqrt(double(square)); };
+      distances[k] = std::accumulate(squares.begin(), squares.end(), 0.0, add) / neighbors;
     });
   return distances;
 }
@@ -274,23 +291,26 @@ std::vector<std::int32_t> thinned(const std::vector<Vec3>& points,
   return pick(chosen, keep);
 }
 
-std::vector<Vec3> smoothed(const std::vector<Vec3>& points, const std::vector<std::int32_t>& chosen,
+std::vector<std::int32_t> smooth(std::vector<Vec3>& points, const std::vector<std::int32_t>& chosen,
   double radius, const Progress& progress)
 {
   if (!(radius > 0.0) || !std::isfinite(radius))
   {
     throw InvalidParameter("SmoothingRadius", radius, "a finite length above 0");
   }
-  std::vector<Vec3> moved(chosen.size());
   if (chosen.empty())
   {
-    return moved;
+    return chosen;
   }
+  // Each of those that stay has as many neighbours as stand for it, in all: linear cost.
+  const std::vector<std::int32_t> kept =
+    thinned(points, chosen, radius / kSmoothingSteps, ProgressPart(progress, 0.0, 0.5));
+  std::vector<Vec3> moved(kept.size());
   const FloatCloud scaled = toFloat(points, chosen);
   pcl::search::KdTree<pcl::PointXYZ> tree(false);
   tree.setInputCloud(scaled.cloud);
   const double reach = std::min(radius * scaled.scale, 4.0);
-  parallelFor(chosen.size(), kGrain,
+  parallelFor(kept.size(), kFewer,
     [&](std::size_t begin, std::size_t end)
     {
       pcl::Indices near;
@@ -298,18 +318,19 @@ std::vector<Vec3> smoothed(const std::vector<Vec3>& points, const std::vector<st
       std::vector<Vec3> around;
       for (std::size_t k = begin; k < end; ++k)
       {
-        if (k % 64 == 0)
-        {
-          progress.check();
-        }
-        tree.radiusSearch((*scaled.cloud)[k], reach, near, squared);
+        progress.check();
+        tree.radiusSearch(scaled.map(points[kept[k]]), reach, near, squared);
         around.resize(near.size());
         std::transform(near.begin(), near.end(), around.begin(),
           [&](int index) { return points[chosen[index]]; });
-        moved[k] = projected(points[chosen[k]], around, radius);
+        moved[k] = projected(points[kept[k]], around, radius);
       }
     });
-  return moved;
+  for (std::size_t k = 0; k < kept.size(); ++k)
+  {
+    points[kept[k]] = moved[k];
+  }
+  return kept;
 }
 
 std::vector<double> surfaceDensity(const std::vector<Vec3>& points,
@@ -326,21 +347,10 @@ std::vector<double> surfaceDensity(const std::vector<Vec3>& points,
   }
   const int count = std::min(neighbors, static_cast<int>(chosen.size()) - 1);
   const FloatCloud scaled = toFloat(points, chosen);
-  pcl::search::KdTree<pcl::PointXYZ> tree;
-  tree.setInputCloud(scaled.cloud);
   const double pi = std::acos(-1.0);
-  parallelFor(chosen.size(), kGrain,
-    [&](std::size_t begin, std::size_t end)
-    {
-      progress.check();
-      pcl::Indices nearest;
-      std::vector<float> squared;
-      for (std::size_t k = begin; k < end; ++k)
-      {
-        tree.nearestKSearch((*scaled.cloud)[k], count + 1, nearest, squared); // and itself
-        density[k] = count * scaled.scale * scaled.scale / (pi * double(squared.back()));
-      }
-    });
+  forNeighbors(scaled, count, progress,
+    [&](std::size_t k, const std::vector<float>& squares)
+    { density[k] = count * scaled.scale * scaled.scale / (pi * double(squares.back())); });
   return density;
 }
 

@@ -14,7 +14,8 @@ namespace hybridtree
 /// and returns those that stay, in the order given, so that whatever belongs to a point can follow.
 /// PCL computes in float: it is given points moved and scaled into a box around 0, never the
 /// points themselves, and gives back indices.
-/// All throw InvalidGeometry for a chosen point that is not finite, Cancelled, and
+/// All throw InvalidGeometry for a chosen point that is not finite or an extent that double
+/// cannot hold, Cancelled, and
 /// InvalidParameter.
 
 /// All points: 0, 1, ...
@@ -38,15 +39,16 @@ std::vector<std::int32_t> thinned(const std::vector<Vec3>& points,
   const std::vector<std::int32_t>& chosen, double spacing,
   const Progress& progress = Progress::none());
 
-/// The chosen points moved onto a smooth surface among them: moving least squares (Alexa et al.
+/// Moves chosen points onto a smooth surface among them all: moving least squares (Alexa et al.
 /// 2003, in one step). Around each point a plane is fitted to its neighbours, then a quadratic
 /// height over it, and the point goes straight onto that. So noise, and several layers of
 /// overlapping scans that are less than about half the radius apart, come out as one sheet; detail
-/// finer than the radius goes too.
+/// finer than the radius goes too. Of points closer than an eighth of the radius one stays, so that
+/// a large radius takes no longer than a small one.
 /// \param radius of the neighbourhood, world units, finite, > 0. Points with fewer than six
 /// neighbours in it stay.
-/// \returns one place per chosen point.
-std::vector<Vec3> smoothed(const std::vector<Vec3>& points, const std::vector<std::int32_t>& chosen,
+/// \param points of which those that stay are moved. \returns these.
+std::vector<std::int32_t> smooth(std::vector<Vec3>& points, const std::vector<std::int32_t>& chosen,
   double radius, const Progress& progress = Progress::none());
 
 /// Per chosen point: points per unit area around it, on the assumption that they sample a surface:

@@ -60,11 +60,11 @@ public:
   {
     this->collect(vertex);
     Poles poles;
-    const bool known = normal.squaredNorm() > 0.0;
-    const Candidate* up = known ? this->along(normal.normalized()) : this->largest();
-    const Candidate* down = up || known
-      ? this->along(known ? Vec3(-normal.normalized()) : Vec3(-up->direction))
-      : nullptr;
+    const bool known = normal != Vec3::Zero();
+    const Vec3 unit = normal.stableNormalized();
+    const Candidate* up = known ? this->along(unit) : this->largest();
+    const Candidate* down =
+      up || known ? this->along(known ? Vec3(-unit) : Vec3(-up->direction)) : nullptr;
     poles.up = up ? up->cell : -1;
     poles.down = down ? down->cell : -1;
     poles.strength =

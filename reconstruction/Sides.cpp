@@ -128,7 +128,7 @@ void addNormals(const std::vector<Poles>& poles, const std::vector<Vec3>& normal
   for (std::size_t point = 0; point < poles.size(); ++point)
   {
     const Poles& pair = poles[point];
-    const bool known = normals[point].squaredNorm() > 0.0;
+    const bool known = normals[point] != Vec3::Zero();
     if (known && pair.up >= 0)
     {
       passages.push_back({ kNormals * pair.strength, pair.up, Passage::kAlike, outside });

@@ -74,18 +74,6 @@ std::vector<hybridtree::Vec3> readNormals(
   return normals;
 }
 
-// All points, the chosen ones smoothed.
-std::vector<hybridtree::Vec3> movedPoints(std::vector<hybridtree::Vec3> points,
-  const std::vector<std::int32_t>& chosen, double radius, const hybridtree::Progress& progress)
-{
-  const std::vector<hybridtree::Vec3> places = smoothed(points, chosen, radius, progress);
-  for (std::size_t k = 0; k < chosen.size(); ++k)
-  {
-    points[chosen[k]] = places[k];
-  }
-  return points;
-}
-
 int pointType(vtkDataSet* input)
 {
   vtkPointSet* set = vtkPointSet::SafeDownCast(input);
@@ -231,25 +219,25 @@ void vtkHybridTreeReconstruction::Reconstruct(vtkDataSet* input, vtkPolyData* ou
 {
   using namespace hybridtree;
   const FilterProgress progress(this);
-  const std::vector<Vec3> all = readPoints(input);
+  std::vector<Vec3> all = readPoints(input);
   std::vector<std::int32_t> chosen = withoutDuplicates(all, allPoints(all), progress);
   if (this->RemoveOutliers)
   {
     chosen = withoutOutliers(all, chosen, this->OutlierNeighbors, this->OutlierDeviation,
       ProgressPart(progress, 0.0, 0.1));
   }
-  const std::vector<Vec3> places = this->SmoothingRadius == 0.0
-    ? all
-    : movedPoints(all, chosen, this->SmoothingRadius, ProgressPart(progress, 0.1, 0.15));
+  if (this->SmoothingRadius != 0.0)
+  {
+    chosen = smooth(all, chosen, this->SmoothingRadius, ProgressPart(progress, 0.1, 0.15));
+  }
   // Points of several layers have come to lie side by side: closer ones would only make slivers.
   const double least = this->Spacing >= 0.0 ? 0.25 * this->SmoothingRadius : this->Spacing;
-  chosen =
-    thinned(places, chosen, std::max(this->Spacing, least), ProgressPart(progress, 0.15, 0.2));
+  chosen = thinned(all, chosen, std::max(this->Spacing, least), ProgressPart(progress, 0.15, 0.2));
 
   std::vector<Vec3> points(chosen.size());
   for (std::size_t k = 0; k < chosen.size(); ++k)
   {
-    points[k] = places[chosen[k]];
+    points[k] = all[chosen[k]];
   }
   ConvectionOptions options;
   options.openPockets = this->OpenPockets;
@@ -271,6 +259,10 @@ void vtkHybridTreeReconstruction::Reconstruct(vtkDataSet* input, vtkPolyData* ou
       detail.vertices = static_cast<std::size_t>(this->TargetVertices);
       break;
     case DETAIL_LEVEL:
+      if (!std::isfinite(this->DetailLevel)) // which no clamp has kept out
+      {
+        throw InvalidParameter("DetailLevel", this->DetailLevel, "0.001 to 1");
+      }
       detail.vertices = std::max<std::size_t>(
         4, static_cast<std::size_t>(std::lround(this->DetailLevel * double(points.size()))));
       break;

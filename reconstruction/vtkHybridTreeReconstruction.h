@@ -88,7 +88,7 @@ public:
   /**
    * Width of a mouth, in local distances between points, from which it leads into a pocket
    * whatever lies behind; a narrower one does only where what lies behind is not much wider.
-   * No unit, above 1, default 6. Raise it where the surface breaks in through a gap of the
+   * No unit, 1 or more, default 6. Raise it where the surface breaks in through a gap of the
    * sampling.
    */
   vtkSetMacro(PocketFactor, double);
@@ -108,7 +108,7 @@ public:
   ///@{
   /**
    * With CloseHoles off: diameter of the smallest empty disc that is a hole, in local mean
-   * distances between points. No unit, above 1, default 5.
+   * distances between points. No unit, 1 or more, default 5.
    */
   vtkSetMacro(HoleFactor, double);
   vtkGetMacro(HoleFactor, double);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "reconstruction/Convection.h"
+#include "reconstruction/DynamicReconstruction.h"
 #include "reconstruction/FacetSize.h"
 #include "reconstruction/Front.h"
 #include "reconstruction/Regions.h"
@@ -199,8 +200,32 @@ TEST(Convection, SaysWhatIsWrongWithThePoints)
   broken[7].y() = std::numeric_limits<double>::infinity();
   EXPECT_NE(messageOf(broken).find("Point 7 "), std::string::npos);
   ConvectionOptions options;
-  options.pocketFactor = 1.0;
+  options.pocketFactor = 0.99;
   EXPECT_THROW(reconstruct(randomSphere(10, 12), options), InvalidParameter);
+}
+
+TEST(Convection, KeepsToTheRangeOfDouble)
+{
+  for (const double scale : { 1e-60, 1e-40, 1e40, 1e60 })
+  {
+    std::vector<Vec3> points = randomSphere(300, 15);
+    for (Vec3& p : points)
+    {
+      p *= scale;
+    }
+    if (scale < 1e-50 || scale > 1e50)
+    {
+      EXPECT_NE(messageOf(points).find("scale them"), std::string::npos) << scale;
+      EXPECT_THROW(DynamicReconstruction{ points }, InvalidGeometry);
+      continue;
+    }
+    const ReconstructedSurface surface = reconstruct(points);
+    EXPECT_TRUE(checkMesh(surface.mesh).closedManifold());
+    for (const Vec3& normal : surface.mesh.normals)
+    {
+      EXPECT_NEAR(normal.norm(), 1.0, 1e-12) << scale;
+    }
+  }
 }
 
 TEST(Convection, SaysWhatItNeedsBeforeItStarts)

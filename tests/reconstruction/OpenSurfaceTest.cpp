@@ -262,10 +262,28 @@ TEST(OpenSurface, AtALevelOfDetailToo)
   EXPECT_EQ(checkMesh(surface.mesh).eulerCharacteristic, 1);
 }
 
+// A level of detail follows solids only: it must not be silent about the rest.
+TEST(OpenSurface, SaysWhereALevelOfDetailMissesIt)
+{
+  const std::vector<Vec3> points = landscape(4000, 16);
+  const ReconstructedSurface surface = reconstruct(points, LevelOfDetail{ 0.0, 1500 }, open());
+  expectManifold(surface, points);
+  EXPECT_FALSE(surface.warnings.empty() && surface.mesh.points.size() < 1300)
+    << surface.mesh.points.size();
+}
+
+TEST(OpenSurface, TellsOfPointsTooFarOffToSeeHoles)
+{
+  std::vector<Vec3> points = randomSphere(1000, 17);
+  points.push_back({ 1e9, 0.0, 0.0 });
+  EXPECT_THROW(reconstruct(points, open()), InvalidGeometry);
+  EXPECT_NO_THROW(reconstruct(points));
+}
+
 TEST(OpenSurface, RefusesAFactorThatMeansNothing)
 {
   ConvectionOptions options = open();
-  options.holeFactor = 1.0;
+  options.holeFactor = 0.99;
   EXPECT_THROW(reconstruct(randomSphere(100, 13), options), InvalidParameter);
 }
 

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 namespace
@@ -79,6 +80,37 @@ TEST(PointCloud, ThinsToASpacing)
   EXPECT_EQ(thinned(points, allPoints(points), 1e30).size(), 1u);
 }
 
+// Also with a radius that makes all points neighbours of each other.
+TEST(PointCloud, SmoothsNoiseAway)
+{
+  Random random(7);
+  std::vector<Vec3> noisy = randomSphere(4000, 7);
+  const auto roughness = [](const std::vector<Vec3>& points, const std::vector<std::int32_t>& of)
+  {
+    double sum = 0.0;
+    for (const std::int32_t k : of)
+    {
+      sum += std::abs(points[k].norm() - 1.0);
+    }
+    return sum / double(of.size());
+  };
+  for (Vec3& p : noisy)
+  {
+    p *= 1.0 + random.uniform(-0.03, 0.03);
+  }
+  std::vector<Vec3> points = noisy;
+  const std::vector<std::int32_t> all = allPoints(points);
+  const std::vector<std::int32_t> kept = smooth(points, all, 0.4);
+  EXPECT_LT(roughness(points, kept), 0.3 * roughness(noisy, all));
+  EXPECT_GT(kept.size(), 1000u);
+  std::vector<Vec3> blob = noisy;
+  EXPECT_LT(smooth(blob, all, 10.0).size(), 10u);
+  // Those that have no neighbours stay where they are.
+  std::vector<Vec3> alone = noisy;
+  EXPECT_EQ(smooth(alone, all, 1e-9), all);
+  EXPECT_EQ(alone, noisy);
+}
+
 TEST(PointCloud, DensityOfASphere)
 {
   const std::vector<Vec3> points = randomSphere(5000, 5);
@@ -105,6 +137,12 @@ TEST(PointCloud, ChecksItsParameters)
   EXPECT_THROW(withoutOutliers(points, all, 5, 1.0), InvalidGeometry);
   EXPECT_TRUE(thinned(points, {}, 1.0).empty());
   EXPECT_TRUE(withoutDuplicates(points, {}).empty());
+  for (Vec3& p : points = randomSphere(50, 8))
+  {
+    p *= 1e308;
+  }
+  EXPECT_THROW(thinned(points, all, 1.0), InvalidGeometry);
+  EXPECT_THROW(surfaceDensity(points, all, 4), InvalidGeometry);
 }
 
 } // namespace

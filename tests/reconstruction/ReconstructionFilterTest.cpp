@@ -23,9 +23,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 #include <limits>
 #include <set>
+#include <utility>
 
 namespace
 {
@@ -250,6 +252,47 @@ TEST(ReconstructionFilter, NamesTheParameterThatIsWrong)
   const std::vector<Vec3> points = randomSphere(100, 3);
   expectError(points, "Spacing", [](auto* filter) { filter->SetSpacing(-1.0); });
   expectError(points, "PocketFactor", [](auto* filter) { filter->SetPocketFactor(0.5); });
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const double radius : { -1.0, nan, std::numeric_limits<double>::infinity() })
+  {
+    expectError(
+      points, "SmoothingRadius", [&](auto* filter) { filter->SetSmoothingRadius(radius); });
+  }
+  expectError(points, "DetailLevel",
+    [&](auto* filter)
+    {
+      filter->SetLevelOfDetailToDetailLevel();
+      filter->SetDetailLevel(nan);
+    });
+  const auto refine = [](auto* filter)
+  {
+    filter->SetLevelOfDetailToTargetVertices();
+    filter->SetTargetVertices(50);
+    filter->RefineRegionOn();
+  };
+  expectError(points, "RefineTolerance",
+    [&](auto* filter)
+    {
+      refine(filter);
+      filter->SetRefineTolerance(-1.0);
+    });
+  expectError(points, "RefineCenter",
+    [&](auto* filter)
+    {
+      refine(filter);
+      filter->SetRefineCenter(0.0, nan, 0.0);
+    });
+  // At once, and where the factor is known to be too small only at the end.
+  for (const double factor : { 0.5, 1.0 })
+  {
+    expectError(points, "HoleFactor",
+      [&](auto* filter)
+      {
+        refine(filter);
+        filter->CloseHolesOff();
+        filter->SetHoleFactor(factor);
+      });
+  }
 }
 
 std::vector<vtkIdType> pointIds(vtkPolyData* output)
@@ -298,6 +341,38 @@ TEST(ReconstructionFilter, KeepsItsStateFromLevelToLevel)
   const auto changed = idsAt(1500);
   filter->KeepStateOff();
   EXPECT_EQ(idsAt(1500), changed);
+}
+
+// Whatever was asked for before.
+TEST(ReconstructionFilter, KeepsNothingOfHolesWithItsState)
+{
+  std::vector<Vec3> points = randomSphere(4000, 24);
+  points.erase(
+    std::remove_if(points.begin(), points.end(), [](const Vec3& p) { return p.z() > 0; }),
+    points.end());
+  vtkNew<vtkPolyData> input;
+  fill(input, points, VTK_DOUBLE);
+  const auto set = [&](vtkHybridTreeReconstruction* filter, int vertices, bool close, double factor)
+  {
+    filter->SetInputData(input);
+    filter->SetLevelOfDetailToTargetVertices();
+    filter->SetTargetVertices(vertices);
+    filter->SetCloseHoles(close);
+    filter->SetHoleFactor(factor);
+    filter->Update();
+    return meshOf(filter->GetOutput()).triangles;
+  };
+  vtkNew<vtkHybridTreeReconstruction> used;
+  for (const int vertices : { 500, 5000 }) // and more than there are points
+  {
+    for (const auto& [close, factor] :
+      { std::pair(true, 5.0), std::pair(false, 2.0), std::pair(false, 8.0), std::pair(true, 5.0) })
+    {
+      vtkNew<vtkHybridTreeReconstruction> fresh;
+      EXPECT_EQ(set(used, vertices, close, factor), set(fresh, vertices, close, factor))
+        << vertices << " vertices, holes closed: " << close << ", from " << factor;
+    }
+  }
 }
 
 // Two scans of a torus, a little apart, with noise.
