@@ -2,7 +2,6 @@
 #include "core/nodes/BlendMesh.h"
 
 #include "core/geometry/BoxUnion.h"
-#include "core/mesh/SmoothNormals.h"
 #include "core/nodes/BlendCost.h"
 #include "core/nodes/BlendSource.h"
 #include "core/nodes/LatticeMesh.h"
@@ -167,15 +166,8 @@ class BlendField : public IslandField
 public:
   explicit BlendField(const Node& blend) : blend_(blend) {}
 
-  void finish(TriangleMesh& island, std::size_t keptPoints, const Progress& progress) const override
+  void findSources(TriangleMesh& island, const Progress& progress) const override
   {
-    if (blend_.isFaceted())
-    {
-      const std::vector<Vec3> before(
-        island.normals.begin(), island.normals.begin() + static_cast<std::ptrdiff_t>(keptPoints));
-      smoothNormals(island);
-      std::copy(before.begin(), before.end(), island.normals.begin());
-    }
     findSourceLeaves(blend_, island, 0, progress);
   }
 
@@ -205,6 +197,7 @@ public:
         terms.push_back({ FieldSourcePtr(FieldSourcePtr(), part.node), part.count });
         near.dependencies.emplace_back(
           part.node->shared_from_this(), static_cast<double>(part.count), part.firstLeaf);
+        near.faceted = near.faceted || part.node->isFaceted();
       }
     }
     near.source = std::make_shared<BlendSource>(std::move(terms));
@@ -229,6 +222,7 @@ public:
   {
     Near near;
     near.source = FieldSourcePtr(FieldSourcePtr(), &blend_);
+    near.faceted = blend_.isFaceted();
     for (const Node* node : { parts_.a, parts_.b, parts_.region })
     {
       near.dependencies.emplace_back(node->shared_from_this(), 1.0, 0);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/stitch/Island.h"
 
+#include "core/mesh/SmoothNormals.h"
 #include "core/polygonize/MemoryBudget.h"
 #include "core/polygonize/SharpCreases.h"
 #include "core/stitch/CheckPatch.h"
@@ -61,7 +62,7 @@ public:
     island_.rim = std::move(cut_.rim);
   }
 
-  Island run(const IslandField& whole)
+  Island run(const IslandField& whole, bool faceted)
   {
     const Patch patch = this->makePatchInside();
     this->join(patch);
@@ -74,10 +75,11 @@ public:
     this->findFaults(patch);
     if (island_.faults.empty())
     {
-      // Turned round, the normals of creases do not mix with those of the faces beside them.
-      this->turnCreaseNormals();
-      whole.finish(island_.mesh, island_.rim.size(), progress_);
-      this->turnCreaseNormals();
+      if (faceted)
+      {
+        this->smoothNewNormals();
+      }
+      whole.findSources(island_.mesh, progress_);
     }
     for (CutMesh& cut : cut_.cuts)
     {
@@ -87,6 +89,18 @@ public:
   }
 
 private:
+  void smoothNewNormals()
+  {
+    const auto kept = static_cast<std::ptrdiff_t>(island_.rim.size());
+    std::vector<Vec3>& normals = island_.mesh.normals;
+    const std::vector<Vec3> before(normals.begin(), normals.begin() + kept);
+    // Turned round, the normals of creases do not mix with those of the faces beside them.
+    this->turnCreaseNormals();
+    smoothNormals(island_.mesh);
+    this->turnCreaseNormals();
+    std::copy(before.begin(), before.end(), normals.begin());
+  }
+
   void turnCreaseNormals()
   {
     for (std::size_t k = 0; k < onCrease_.size(); ++k)
@@ -435,11 +449,12 @@ IslandCut cutIsland(const std::vector<KeptPart>& parts, const CellSet& cells, co
   return result;
 }
 
-Island makeIsland(const IslandField& field, const FieldSource& near,
+Island makeIsland(const IslandField& field, const IslandField::Near& near,
   const std::vector<KeptPart>& parts, IslandCut cut, const CellSet& cells,
   const StitchOptions& options, const Progress& progress)
 {
-  return IslandMaker(near, parts, std::move(cut), cells, options, progress).run(field);
+  return IslandMaker(*near.source, parts, std::move(cut), cells, options, progress)
+    .run(field, near.faceted);
 }
 
 } // namespace hybridtree

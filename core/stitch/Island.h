@@ -57,7 +57,7 @@ IslandCut cutIsland(const std::vector<KeptPart>& parts, const CellSet& cells, co
 /// Fills the marked cells up to the cut (Patch.h), gives patch and cut pieces a better shape
 /// (PatchShape.h), and checks: closed with what lies around, oriented, a 2-manifold, no triangle
 /// turned against the gradient. \throws TooLarge, Cancelled.
-Island makeIsland(const IslandField& field, const FieldSource& near,
+Island makeIsland(const IslandField& field, const IslandField::Near& near,
   const std::vector<KeptPart>& parts, IslandCut cut, const CellSet& cells,
   const StitchOptions& options, const Progress& progress);
 

@@ -21,6 +21,7 @@ public:
   {
     FieldSourcePtr source; ///< not null; lives no longer than the field
     std::vector<Dependency> dependencies;
+    bool faceted = false; ///< its gradient jumps from facet to facet of a mesh
   };
 
   virtual ~IslandField() = default;
@@ -28,10 +29,8 @@ public:
   /// The field in a box. Equal dependencies mean equal numbers at all points, to the last bit.
   virtual Near near(const Box3& box) const = 0;
 
-  /// Last touches to the new triangles of an island: normals of its points from `keptPoints` on,
-  /// and sourceLeaf. Told by the dependencies too.
-  virtual void finish(
-    TriangleMesh& island, std::size_t keptPoints, const Progress& progress) const = 0;
+  /// Fills sourceLeaf of an island. Told by the dependencies too.
+  virtual void findSources(TriangleMesh& island, const Progress& progress) const = 0;
 };
 
 } // namespace hybridtree

@@ -78,7 +78,7 @@ public:
     return { FieldSourcePtr(FieldSourcePtr(), &field_), { { self_, 0.0, 0 } } };
   }
 
-  void finish(TriangleMesh&, std::size_t, const Progress&) const override {}
+  void findSources(TriangleMesh&, const Progress&) const override {}
 
 private:
   const FieldSource& field_;
@@ -92,8 +92,8 @@ struct Work
   Box3 box; ///< of the cells, and a margin
   std::vector<std::int32_t> numbers;
   std::vector<KeptPart> parts; ///< those of these numbers, which are near
+  IslandField::Near near;
   IslandKey key;
-  FieldSourcePtr field;
   std::optional<IslandCut> cut;
   std::shared_ptr<const Island> island;
 
@@ -188,9 +188,8 @@ private:
         kBrickSide * brick.index[2] };
       work.box.extend(options_.grid.boxOf(low, kBrickSide, kMargin));
     }
-    IslandField::Near near = field_.near(work.box);
-    work.field = std::move(near.source);
-    work.key = { options_.grid, cells.bricks(), std::move(near.dependencies) };
+    work.near = field_.near(work.box);
+    work.key = { options_.grid, cells.bricks(), work.near.dependencies };
     for (std::size_t p = 0; p < parts_.size(); ++p)
     {
       if (bounds_[p].intersects(work.box))
@@ -226,7 +225,6 @@ private:
       return;
     }
     std::vector<Work> united;
-    std::vector<std::size_t> place(works_.size());
     std::vector<CellSet> cells(works_.size());
     for (std::size_t k = 0; k < works_.size(); ++k)
     {
@@ -261,7 +259,7 @@ private:
       work.cut = cutIsland(work.parts, work.cells, options_.grid, progress_);
     }
     auto island = std::make_shared<const Island>(makeIsland(
-      field_, *work.field, work.parts, std::move(*work.cut), work.cells, options_, progress_));
+      field_, work.near, work.parts, std::move(*work.cut), work.cells, options_, progress_));
     const std::size_t bytes = island->bytes() + work.key.cells.size() * sizeof(CellSet::Brick) +
       work.key.dependencies.size() * sizeof(Dependency);
     store().keep(work.key, island, bytes);

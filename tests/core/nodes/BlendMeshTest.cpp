@@ -337,6 +337,19 @@ TEST(BlendMesh, NothingIsTakenFromWhatIsGone)
   }
 }
 
+// Normals over facets are smoothed; a scan that comes into the tree far away must not change what a
+// blend of balls was.
+TEST(BlendMesh, AMeshFarAwayChangesNothing)
+{
+  std::vector<NodePtr> children{ ball(Vec3(0, 0, 0), 0.4, 0.6), ball(Vec3(0.7, 0, 0), 0.3, 0.5) };
+  make(children, BlendMethod::PrimitiveBased, 0.05, 1.0);
+  children.push_back(meshLeaf(icosphere(0.3, 2, Vec3(5, 0, 0)), 0.1));
+  const Made after = make(children, BlendMethod::PrimitiveBased, 0.05, 1.0);
+  EXPECT_EQ(after.report.rememberedIslands, 1u);
+  forgetBlends();
+  expectSame(*after.mesh, *make(children, BlendMethod::PrimitiveBased, 0.05, 1.0).mesh);
+}
+
 TEST(BlendMesh, IsTheSameForAnyNumberOfThreads)
 {
   const std::vector<NodePtr> children{ meshLeaf(bumpySphere(0.6, 3), 0.3),
