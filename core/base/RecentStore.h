@@ -14,8 +14,8 @@ namespace hybridtree
 {
 
 /// Results that may be needed again, by what they were made from. Past a number of bytes those go
-/// that were not asked for the longest, and with every new one those whose key is expired: made
-/// from objects that are gone. Thread-safe.
+/// that were not asked for the longest; those whose key is expired, made from objects that are
+/// gone, go once new ones are a quarter of all. Thread-safe.
 ///
 /// \tparam Key has hash(), operator== and isExpired(). A key that is expired equals none.
 template <class Key, class Value>

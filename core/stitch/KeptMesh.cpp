@@ -259,18 +259,13 @@ const std::vector<std::int32_t>& KeptMesh::valence() const
 
 std::shared_ptr<const TriangleBricks> KeptMesh::bricks(const CellGrid& grid) const
 {
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    if (bricks_ && bricks_->grid() == grid)
-    {
-      return bricks_;
-    }
-  }
-  // Not while locked: a thread that waits for the others takes on tasks that may ask here too.
-  auto made = std::make_shared<const TriangleBricks>(mesh_, grid);
+  // Islands ask for it all at once: the others wait for the first.
   const std::lock_guard<std::mutex> lock(mutex_);
-  bricks_ = made;
-  return made;
+  if (!bricks_ || !(bricks_->grid() == grid))
+  {
+    bricks_ = std::make_shared<const TriangleBricks>(mesh_, grid);
+  }
+  return bricks_;
 }
 
 } // namespace hybridtree

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/nodes/BlendMesh.h"
 
+#include "core/base/Error.h"
 #include "core/base/Parallel.h"
 #include "core/mesh/MeshChecks.h"
 #include "core/mesh/MeshDistance.h"
@@ -11,6 +12,7 @@
 #include "core/skeletons/Point.h"
 #include "core/skeletons/Segment.h"
 
+#include "tests/support/CancelAt.h"
 #include "tests/support/Random.h"
 #include "tests/support/RandomTree.h"
 #include "tests/support/TestMeshes.h"
@@ -348,6 +350,36 @@ TEST(BlendMesh, AMeshFarAwayChangesNothing)
   EXPECT_EQ(after.report.rememberedIslands, 1u);
   forgetBlends();
   expectSame(*after.mesh, *make(children, BlendMethod::PrimitiveBased, 0.05, 1.0).mesh);
+}
+
+// Wherever it is stopped, what is remembered up to there is whole.
+TEST(BlendMesh, ACancelledOneLeavesNothingHalfDone)
+{
+  Random random(77);
+  std::vector<NodePtr> children{ meshLeaf(bumpySphere(0.6, 4), 0.1) };
+  for (int k = 0; k < 5; ++k)
+  {
+    children.push_back(ball(0.6 * random.direction(), 0.04, 0.08));
+  }
+  forgetBlends();
+  const Made fresh = make(children, BlendMethod::PrimitiveBased, 0.05);
+  int stopped = 0;
+  for (int looks = 1, left = -1; left < 0; looks *= 2)
+  {
+    forgetBlends();
+    const CancelAt stop(looks);
+    try
+    {
+      makeBlend(children, { BlendMethod::PrimitiveBased, 0.5 })->mesh(0.05, stop);
+    }
+    catch (const Cancelled&)
+    {
+      ++stopped;
+    }
+    left = stop.looksLeft();
+    expectSame(*make(children, BlendMethod::PrimitiveBased, 0.05).mesh, *fresh.mesh);
+  }
+  EXPECT_GT(stopped, 3);
 }
 
 TEST(BlendMesh, IsTheSameForAnyNumberOfThreads)
