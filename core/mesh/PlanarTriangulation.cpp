@@ -311,8 +311,9 @@ bool PlanarTriangulation::shouldFlip(Edge edge) const
   const Vec2 da = points_[a] - points_[d];
   const Vec2 db = points_[b] - points_[d];
   const double sine = cross(ca, cb) * da.dot(db) + ca.dot(cb) * cross(db, da);
-  const double size = ca.norm() * cb.norm() * da.norm() * db.norm();
-  return sine<-1e-9 * size&& this->turn(c, a, d)> 0 && this->turn(d, b, c) > 0;
+  return sine < 0.0 && // as nearly always not
+    sine < -1e-9 * (ca.norm() * cb.norm() * da.norm() * db.norm()) && this->turn(c, a, d) > 0 &&
+    this->turn(d, b, c) > 0;
 }
 
 void PlanarTriangulation::flip(Edge edge)
@@ -358,13 +359,13 @@ void PlanarTriangulation::flipAll()
   {
     for (int side = 0; side < 3; ++side)
     {
-      if (neighbours_[t][side] > t)
+      if (neighbours_[t][side] > t && this->shouldFlip({ t, side }))
       {
         edges.push_back({ t, side });
+        this->legalize(edges);
       }
     }
   }
-  this->legalize(edges);
 }
 
 void PlanarTriangulation::splitLongEdges(double length)
@@ -449,8 +450,8 @@ void PlanarTriangulation::smooth(int rounds)
         }
       }
     }
-    this->flipAll();
   }
+  this->flipAll();
 }
 
 } // namespace hybridtree

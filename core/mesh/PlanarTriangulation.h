@@ -41,8 +41,8 @@ public:
   /// Adds the middle of every inner edge longer than `length`, until there is none.
   void splitLongEdges(double length);
 
-  /// Moves inner points to the middle of their neighbours, where that turns no triangle over, and
-  /// flips edges back to Delaunay; that many times.
+  /// Moves inner points to the middle of their neighbours, where that turns no triangle over, that
+  /// many times, and flips edges back to Delaunay.
   void smooth(int rounds);
 
   double longestEdge() const;

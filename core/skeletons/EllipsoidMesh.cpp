@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/skeletons/EllipsoidMesh.h"
 
+#include "core/mesh/AddTriangle.h"
 #include "core/skeletons/LongestEdge.h"
 #include "core/skeletons/OffsetMesh.h"
 
@@ -333,9 +334,8 @@ private:
 
   void addHalf(const std::vector<int>& first, int pole, bool flip)
   {
-    const auto add = [&](int a, int b, int c) {
-      mesh_.triangles.push_back(flip ? Triangle{ a, c, b } : Triangle{ a, b, c });
-    };
+    const auto add = [&](int a, int b, int c)
+    { addTriangle(mesh_.triangles, a, flip ? c : b, flip ? b : c); };
     for (std::size_t k = 0; k + 1 < rows_.size(); ++k)
     {
       const int endA = rows_[k].count();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/skeletons/PlateFace.h"
 
+#include "core/mesh/AddTriangle.h"
 #include "core/skeletons/PlateFill.h"
 #include "core/skeletons/PlateLattice.h"
 
@@ -152,8 +153,8 @@ PlateFace gridOfParallelogram(const Corners& corners, const std::vector<int>& co
       // images of the grid are the grid.
       const bool upright = std::abs(lean) < 0.02;
       const bool fromA = upright ? (2 * i + 1 < m) == (2 * j + 1 < n) : lean < 0.0;
-      face.triangles.push_back(fromA ? Triangle{ a, b, c } : Triangle{ a, b, d });
-      face.triangles.push_back(fromA ? Triangle{ a, c, d } : Triangle{ b, c, d });
+      addTriangle(face.triangles, a, b, fromA ? c : d);
+      addTriangle(face.triangles, fromA ? a : b, c, d);
     }
   }
   return face;
@@ -191,10 +192,10 @@ PlateFace gridOfTriangle(const Corners& corners, int n)
   {
     for (int i = 0; i + j < n; ++i)
     {
-      face.triangles.push_back({ id(i, j), id(i + 1, j), id(i, j + 1) });
+      addTriangle(face.triangles, id(i, j), id(i + 1, j), id(i, j + 1));
       if (i + j + 1 < n)
       {
-        face.triangles.push_back({ id(i + 1, j), id(i + 1, j + 1), id(i, j + 1) });
+        addTriangle(face.triangles, id(i + 1, j), id(i + 1, j + 1), id(i, j + 1));
       }
     }
   }
@@ -318,8 +319,8 @@ PlateFace mirroredOutline(const Corners& corners, const Mirror& mirror,
   face.triangles.reserve(2 * filled.triangles.size());
   for (const auto& [a, b, c] : filled.triangles)
   {
-    face.triangles.push_back({ id(a, 1), id(b, 1), id(c, 1) });
-    face.triangles.push_back({ id(a, -1), id(c, -1), id(b, -1) });
+    addTriangle(face.triangles, id(a, 1), id(b, 1), id(c, 1));
+    addTriangle(face.triangles, id(a, -1), id(c, -1), id(b, -1));
   }
   return face;
 }

@@ -2,6 +2,7 @@
 #include "core/skeletons/PlateFill.h"
 
 #include "core/geometry/Predicates.h"
+#include "core/mesh/AddTriangle.h"
 #include "core/skeletons/PlateLattice.h"
 
 #include <algorithm>
@@ -34,15 +35,15 @@ public:
   {
     around_.assign(static_cast<std::size_t>(lattice.size()), 0);
     this->forEach(
-      [this](const Triangle& t, bool upward)
+      [this](std::int32_t a, std::int32_t b, std::int32_t c, bool upward)
       {
-        around_[t[0]] |= upward ? 1 : 32;
-        around_[t[1]] |= upward ? 4 : 2;
-        around_[t[2]] |= upward ? 16 : 8;
+        around_[static_cast<std::size_t>(a)] |= upward ? 1 : 32;
+        around_[static_cast<std::size_t>(b)] |= upward ? 4 : 2;
+        around_[static_cast<std::size_t>(c)] |= upward ? 16 : 8;
       });
   }
 
-  // visit(triangle, upward): counter-clockwise, first the left one of the two corners that are in
+  // visit(a, b, c, upward): counter-clockwise, first the left one of the two corners that are in
   // one row.
   template <class Visit>
   void forEach(const Visit& visit) const
@@ -73,13 +74,13 @@ private:
          x += 2)
     {
       const std::int32_t a = low.number + (x - low.first) / 2;
-      visit(Triangle{ a, a + 1, high.number + (x + 1 - high.first) / 2 }, true);
+      visit(a, a + 1, high.number + (x + 1 - high.first) / 2, true);
     }
     for (int x = std::max(high.first, low.first - 1); x <= std::min(high.last - 2, low.last - 1);
          x += 2)
     {
       const std::int32_t a = high.number + (x - high.first) / 2;
-      visit(Triangle{ a, low.number + (x + 1 - low.first) / 2, a + 1 }, false);
+      visit(a, low.number + (x + 1 - low.first) / 2, a + 1, false);
     }
   }
 
@@ -281,17 +282,19 @@ private:
   void addLayers()
   {
     triangles_.forEach(
-      [this](const Triangle& t, bool)
+      [this](std::int32_t a, std::int32_t b, std::int32_t c, bool)
       {
-        const auto layer = [&](int k) { return layer_[static_cast<std::size_t>(t[k])]; };
-        if (std::min({ layer(0), layer(1), layer(2) }) < kLayers)
+        const auto layer = [&](std::int32_t point)
+        { return layer_[static_cast<std::size_t>(point)]; };
+        if (std::min({ layer(a), layer(b), layer(c) }) < kLayers)
         {
-          const auto id = [&](int k) { return number_[static_cast<std::size_t>(t[k])]; };
-          stripTriangles_.push_back({ id(0), id(1), id(2) });
+          const auto id = [&](std::int32_t point)
+          { return number_[static_cast<std::size_t>(point)]; };
+          stripTriangles_.push_back({ id(a), id(b), id(c) });
         }
         else
         {
-          inner_.push_back(t);
+          addTriangle(inner_, a, b, c);
         }
       });
   }
@@ -314,8 +317,8 @@ private:
     }
     for (const auto& [a, b, c] : inner_)
     {
-      face.triangles.push_back({ number_[static_cast<std::size_t>(a)],
-        number_[static_cast<std::size_t>(b)], number_[static_cast<std::size_t>(c)] });
+      addTriangle(face.triangles, number_[static_cast<std::size_t>(a)],
+        number_[static_cast<std::size_t>(b)], number_[static_cast<std::size_t>(c)]);
     }
     return face;
   }

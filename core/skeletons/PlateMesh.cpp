@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/skeletons/PlateMesh.h"
 
+#include "core/mesh/AddTriangle.h"
 #include "core/skeletons/OffsetMesh.h"
 #include "core/skeletons/PlateFace.h"
 #include "core/skeletons/PlateRim.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace hybridtree
 {
@@ -32,42 +32,33 @@ class PlateMesher
 {
 public:
   PlateMesher(const PlateShape& plate, double radius, std::vector<PlateRim::Ring> rings)
-    : plate_(plate)
-    , radius_(radius)
-    , rings_(std::move(rings))
-    , halfRings_(static_cast<int>(rings_.size()) - 1)
+    : plate_(plate), radius_(radius), rings_(std::move(rings))
   {
-    for (const PlateRim::Ring& ring : rings_)
-    {
-      std::size_t size = 0;
-      for (const auto& chain : ring)
-      {
-        size += chain.size() - 1;
-      }
-      sizes_.push_back(static_cast<int>(size));
-    }
   }
 
-  // The rim. Returns the length of its longest edge.
-  double makeRim()
+  // The rim. Returns the length of its longest edge across from ring to ring.
+  // \param inFaces about how many points the faces will have.
+  double makeRim(double inFaces)
   {
-    // The faces have some as many points again.
-    const auto count = std::accumulate(sizes_.begin(), sizes_.end(), std::size_t(0));
-    mesh_.points.reserve(4 * count);
-    mesh_.normals.reserve(4 * count);
-    mesh_.triangles.reserve(8 * count);
-    for (int k = 0; k <= halfRings_; ++k)
+    auto count = static_cast<std::size_t>(inFaces);
+    for (const PlateRim::Ring& ring : rings_)
     {
-      const double angle = 0.5 * EIGEN_PI * k / halfRings_;
-      const bool equator = k == halfRings_; // there once
-      this->placeRing(k, 1.0, equator ? 1.0 : std::sin(angle), equator ? 0.0 : std::cos(angle));
-      if (!equator)
+      int size = 0;
+      for (const PlateRim::Chain& chain : ring)
       {
-        this->placeRing(k, -1.0, std::sin(angle), std::cos(angle));
+        size += static_cast<int>(chain.middles.size());
       }
+      ids_.push_back({ 0, 0, size });
+      count += 2 * static_cast<std::size_t>(size);
     }
-    firstOfRing_[1].push_back(firstOfRing_[0].back());
-    for (int k = 0; k < halfRings_; ++k)
+    mesh_.points.reserve(count);
+    mesh_.normals.reserve(count);
+    mesh_.triangles.reserve(2 * count);
+    for (std::size_t k = 0; k < rings_.size(); ++k)
+    {
+      this->placeRing(k);
+    }
+    for (std::size_t k = 0; k + 1 < rings_.size(); ++k)
     {
       this->addStrip(k);
     }
@@ -77,143 +68,128 @@ public:
   // With the faces. \pre their outline is ring 0.
   TriangleMesh addFaces(const PlateFace& face)
   {
-    mesh_.triangles.reserve(mesh_.triangles.size() + 2 * face.triangles.size());
-    mesh_.points.reserve(mesh_.points.size() + 2 * face.points.size());
-    this->addFace(face, false);
-    this->addFace(face, true);
+    const Ids outline = ids_.front();
+    const int inner = static_cast<int>(face.points.size()) - outline.size;
+    const int above = static_cast<int>(mesh_.points.size());
+    const int below = above + inner;
+    const Vec3 up = plate_.axes.col(2);
+    mesh_.normals.resize(static_cast<std::size_t>(below), up);
+    mesh_.normals.resize(static_cast<std::size_t>(below + inner), -up);
+    for (const double side : { radius_, -radius_ })
+    {
+      for (std::size_t k = static_cast<std::size_t>(outline.size); k < face.points.size(); ++k)
+      {
+        mesh_.points.push_back(this->placeOf(face.points[k]) + side * up);
+      }
+    }
+    const auto upper = [&](int p)
+    { return p < outline.size ? outline.above + p : above + p - outline.size; };
+    const auto lower = [&](int p)
+    { return p < outline.size ? outline.below + p : below + p - outline.size; };
+    for (const auto& [a, b, c] : face.triangles)
+    {
+      addTriangle(mesh_.triangles, upper(a), upper(b), upper(c));
+      addTriangle(mesh_.triangles, lower(a), lower(c), lower(b));
+    }
     return std::move(mesh_);
   }
 
 private:
-  void addFace(const PlateFace& face, bool lower)
+  // The first points of a ring in the mesh, and how many there are. The equator is there once.
+  struct Ids
   {
-    const double side = lower ? -1.0 : 1.0;
-    const Vec3 up = plate_.axes.col(2);
-    const Vec3 origin = plate_.origin + side * radius_ * up;
-    const int outline = sizes_.front();
-    const int first = static_cast<int>(mesh_.points.size());
-    for (std::size_t k = static_cast<std::size_t>(outline); k < face.points.size(); ++k)
-    {
-      mesh_.points.push_back(origin + plate_.axes.leftCols<2>() * face.points[k]);
-    }
-    mesh_.normals.resize(mesh_.points.size(), side * up);
-    const auto idOf = [&](int p)
-    { return p < outline ? this->id(0, p, lower) : first + p - outline; };
-    for (const auto& [a, b, c] : face.triangles)
-    {
-      mesh_.triangles.push_back(
-        lower ? Triangle{ idOf(a), idOf(c), idOf(b) } : Triangle{ idOf(a), idOf(b), idOf(c) });
-    }
-  }
+    int above, below;
+    int size;
 
-  void placeRing(int ring, double side, double across, double up)
+    int after(int point) const { return point + 1 == size ? 0 : point + 1; }
+  };
+
+  // In the plane of the plate.
+  Vec3 placeOf(const Vec2& p) const { return plate_.origin + plate_.axes.leftCols<2>() * p; }
+
+  void placeRing(std::size_t ring)
   {
-    firstOfRing_[side < 0.0].push_back(static_cast<int>(mesh_.points.size()));
-    const Vec3 axis = side * up * plate_.axes.col(2);
-    const Vec3 origin = plate_.origin + radius_ * axis;
-    for (const auto& chain : rings_[static_cast<std::size_t>(ring)])
+    const bool equator = ring + 1 == rings_.size();
+    const double angle = 0.5 * EIGEN_PI * double(ring) / double(rings_.size() - 1);
+    const double across = equator ? 1.0 : std::sin(angle);
+    const Vec3 lift = (equator ? 0.0 : std::cos(angle)) * plate_.axes.col(2);
+    Ids& ids = ids_[ring];
+    auto above = mesh_.points.size();
+    auto below = above + static_cast<std::size_t>(equator ? 0 : ids.size);
+    ids.above = static_cast<int>(above);
+    ids.below = static_cast<int>(below);
+    mesh_.points.resize(below + static_cast<std::size_t>(ids.size));
+    mesh_.normals.resize(mesh_.points.size());
+    for (const PlateRim::Chain& chain : rings_[ring])
     {
-      for (std::size_t k = 0; k + 1 < chain.size(); ++k)
+      for (std::size_t k = 0; k < chain.middles.size(); ++k, ++above, ++below)
       {
-        const PlateRim::Point& p = chain[k];
-        const Vec2 place = p.foot + radius_ * across * p.outward;
-        Vec3 normal = plate_.axes.leftCols<2>() * (across * p.normal) + axis;
-        if (k == 0) // only there is a mitre
-        {
-          normal.normalize();
-        }
-        mesh_.points.push_back(origin + plate_.axes.leftCols<2>() * place);
-        mesh_.normals.push_back(normal);
+        const PlateRim::Point& p = chain.points[k];
+        const Vec3 place = this->placeOf(p.foot + radius_ * across * p.outward);
+        const Vec3 normal = plate_.axes.leftCols<2>() * (across * p.normal);
+        // Only at the first is there a mitre.
+        const double length = k == 0 ? (normal + lift).norm() : 1.0;
+        mesh_.points[below] = place - radius_ * lift;
+        mesh_.points[above] = place + radius_ * lift;
+        mesh_.normals[below] = (normal - lift) / length;
+        mesh_.normals[above] = (normal + lift) / length;
       }
     }
   }
 
   // Between ring k and the next, above and below: advancing on the ring whose next edge has its
   // middle first, where arcs are as long on both rings as on the wider one.
-  void addStrip(int k)
+  void addStrip(std::size_t k)
   {
-    const PlateRim::Ring& inner = rings_[static_cast<std::size_t>(k)];
-    const PlateRim::Ring& outer = rings_[static_cast<std::size_t>(k) + 1];
-    const double reach = radius_ * std::sin(0.5 * EIGEN_PI * (k + 1) / halfRings_);
+    const PlateRim::Ring& inner = rings_[k];
+    const PlateRim::Ring& outer = rings_[k + 1];
+    const double reach =
+      radius_ * std::sin(0.5 * EIGEN_PI * double(k + 1) / double(ids_.size() - 1));
+    const auto keyOf = [reach](const PlateRim::Place& place)
+    { return place.along + reach * place.angle; };
     int a = 0;
     int b = 0;
     for (std::size_t chain = 0; chain < inner.size(); ++chain)
     {
-      findKeys(inner[chain], reach, innerKeys_);
-      findKeys(outer[chain], reach, outerKeys_);
-      const double total = std::max(innerKeys_.back(), outerKeys_.back());
+      const std::vector<PlateRim::Place>& onInner = inner[chain].middles;
+      const std::vector<PlateRim::Place>& onOuter = outer[chain].middles;
+      const double total = std::max(keyOf(inner[chain].end), keyOf(outer[chain].end));
       std::size_t i = 0;
       std::size_t j = 0;
-      while (i + 1 < innerKeys_.size() || j + 1 < outerKeys_.size())
+      while (i < onInner.size() || j < onOuter.size())
       {
-        bool onInner = j + 1 == outerKeys_.size();
-        if (!onInner && i + 1 < innerKeys_.size())
+        bool isInner = j == onOuter.size();
+        if (!isInner && i < onInner.size())
         {
-          const double middle = innerKeys_[i] + innerKeys_[i + 1];
-          const double difference = middle - outerKeys_[j] - outerKeys_[j + 1];
+          const double key = keyOf(onInner[i]);
+          const double difference = key - keyOf(onOuter[j]);
           const bool even = std::abs(difference) <= 1e-9 * total;
-          onInner = even ? middle < total : difference < 0.0;
+          isInner = even ? 2.0 * key < total : difference < 0.0;
         }
-        if (onInner)
-        {
-          const int next = this->after(k, a);
-          this->addBoth(k, a, k + 1, b, k, next);
-          a = next;
-          ++i;
-        }
-        else
-        {
-          const int next = this->after(k + 1, b);
-          this->addBoth(k, a, k + 1, b, k + 1, next);
-          b = next;
-          ++j;
-        }
+        this->addStep(ids_[k], ids_[k + 1], isInner, a, b);
+        ++(isInner ? i : j);
       }
     }
   }
 
-  static void findKeys(
-    const std::vector<PlateRim::Point>& chain, double reach, std::vector<double>& keys)
+  // The triangles from the edge between points a and b to the next point of either ring.
+  void addStep(const Ids& inner, const Ids& outer, bool isInner, int& a, int& b)
   {
-    keys.clear();
-    for (const PlateRim::Point& p : chain)
-    {
-      keys.push_back(p.along + reach * p.angle);
-    }
-  }
-
-  int after(int ring, int point) const
-  {
-    return point + 1 == sizes_[static_cast<std::size_t>(ring)] ? 0 : point + 1;
-  }
-
-  int id(int ring, int p, bool lower) const
-  {
-    return firstOfRing_[lower][static_cast<std::size_t>(ring)] + p;
-  }
-
-  // From b in the outer ring to a in the inner one, to c in either.
-  void addBoth(int ringA, int a, int ringB, int b, int ringC, int c)
-  {
-    const Triangle upper = { id(ringA, a, false), id(ringB, b, false), id(ringC, c, false) };
-    mesh_.triangles.push_back(upper);
-    mesh_.triangles.push_back({ id(ringA, a, true), id(ringC, c, true), id(ringB, b, true) });
-    // The edge from a to b is that of the triangle before.
-    const Vec3& apex = mesh_.points[static_cast<std::size_t>(upper[2])];
-    for (const int other : { upper[0], upper[1] })
-    {
-      longestSquared_ = std::max(
-        longestSquared_, (mesh_.points[static_cast<std::size_t>(other)] - apex).squaredNorm());
-    }
+    const Ids& ring = isInner ? inner : outer;
+    int& point = isInner ? a : b;
+    const int next = ring.after(point);
+    addTriangle(mesh_.triangles, inner.above + a, outer.above + b, ring.above + next);
+    addTriangle(mesh_.triangles, inner.below + a, ring.below + next, outer.below + b);
+    point = next;
+    const Vec3& from = mesh_.points[static_cast<std::size_t>(inner.above + a)];
+    const Vec3& to = mesh_.points[static_cast<std::size_t>(outer.above + b)];
+    longestSquared_ = std::max(longestSquared_, (from - to).squaredNorm());
   }
 
   const PlateShape& plate_;
   double radius_;
   std::vector<PlateRim::Ring> rings_; // from the outline, ring 0, to the equator
-  int halfRings_;
-  std::vector<int> sizes_;          // of the rings
-  std::vector<int> firstOfRing_[2]; // above and below; ring 0 is the outline
-  std::vector<double> innerKeys_, outerKeys_;
+  std::vector<Ids> ids_;
   double longestSquared_ = 0.0;
   TriangleMesh mesh_;
 };
@@ -240,7 +216,8 @@ std::optional<TriangleMesh> meshPlate(const PlateShape& plate, double radius, do
     corners.emplace_back(side.x, side.y);
   }
   const PlateRim rim(corners);
-  const double area = 2.0 * areaOf(corners) + EIGEN_PI * radius * (rim.length() + 4.0 * radius);
+  const double inFaces = 2.0 * areaOf(corners);
+  const double area = inFaces + EIGEN_PI * radius * (rim.length() + 4.0 * radius);
   requireModestCount(
     area / (0.2 * edgeLength * edgeLength) + 4.0 * rim.length() / edgeLength, edgeLength);
   if (!rim.isSimple(radius))
@@ -252,7 +229,7 @@ std::optional<TriangleMesh> meshPlate(const PlateShape& plate, double radius, do
   {
     const std::vector<int> counts = sideCounts(corners, spacing);
     PlateMesher mesher(plate, radius, ringsOf(rim, counts, radius, spacing));
-    double longest = mesher.makeRim();
+    double longest = mesher.makeRim(1.25 * inFaces / (spacing * spacing));
     if (longest <= edgeLength)
     {
       const PlateFace face = meshFace(corners, counts, spacing, edgeLength);

@@ -122,21 +122,21 @@ double PlateRim::endOf(int side, double distance) const
 PlateRim::Point PlateRim::onSide(int side, double at) const
 {
   const Side& s = sides_[side];
-  return { corners_[side].place + at * s.direction, s.normal, s.normal, 0.0, 0.0 };
+  return { corners_[side].place + at * s.direction, s.normal, s.normal };
 }
 
 PlateRim::Point PlateRim::onArc(int corner, double share) const
 {
   const Corner& c = corners_[corner];
   const Vec2 outward = turned(c.bisector, (share - 0.5) * std::max(0.0, c.turn));
-  return { c.place, outward, outward, 0.0, 0.0 };
+  return { c.place, outward, outward };
 }
 
 PlateRim::Point PlateRim::onMitre(int corner) const
 {
   const Corner& c = corners_[corner];
   const double cosine = std::cos(0.5 * c.turn);
-  return { c.place, c.bisector / cosine, c.bisector * cosine, 0.0, 0.0 };
+  return { c.place, c.bisector / cosine, c.bisector * cosine };
 }
 
 PlateRim::Ring PlateRim::outline(const std::vector<int>& counts) const
@@ -148,39 +148,30 @@ PlateRim::Ring PlateRim::outline(const std::vector<int>& counts) const
     {
       continue;
     }
-    std::vector<Point> chain;
+    Chain chain;
     const int last = this->nextBreak(first);
-    double along = 0.0;
-    double angle = 0.0;
     int side = first;
     do
     {
-      const double half = 0.5 * std::max(0.0, corners_[side].turn);
-      if (side != first)
+      const double turn = std::max(0.0, corners_[side].turn);
+      chain.end.angle += side == first ? 0.5 * turn : turn;
+      const double step = sides_[side].length / counts[side];
+      for (int k = 0; k < counts[side]; ++k)
       {
-        angle += half; // the corner stands for the middle of its arc
+        chain.points.push_back(this->onSide(side, step * k));
+        chain.middles.push_back({ chain.end.along + step * (k + 0.5), chain.end.angle });
       }
-      for (int step = 0; step < counts[side]; ++step)
-      {
-        Point p = this->onSide(side, sides_[side].length * step / counts[side]);
-        p.along = along + sides_[side].length * step / counts[side];
-        p.angle = step == 0 ? angle : angle + half;
-        chain.push_back(p);
-      }
-      angle += half;
-      along += sides_[side].length;
+      chain.end.along += sides_[side].length;
       side = this->after(side);
     } while (side != last);
-    Point end = this->onSide(last, 0.0);
-    end.along = along;
-    end.angle = angle + 0.5 * std::max(0.0, corners_[last].turn);
-    chain.push_back(end);
+    chain.end.angle += 0.5 * std::max(0.0, corners_[last].turn);
+    chain.points.push_back(this->onSide(last, 0.0));
     ring.push_back(std::move(chain));
   }
   return ring;
 }
 
-std::vector<PlateRim::Point> PlateRim::chain(int first, double distance, double spacing) const
+PlateRim::Chain PlateRim::chain(int first, double distance, double spacing) const
 {
   // Its parts one after the other: half an arc, a side, an arc, a side, ..., half an arc.
   struct Part
@@ -190,6 +181,7 @@ std::vector<PlateRim::Point> PlateRim::chain(int first, double distance, double 
     double begin, end;
     double length;
     double along, angle; // before it
+    double turn;
   };
   std::vector<Part> parts;
   double total = 0.0;
@@ -198,7 +190,7 @@ std::vector<PlateRim::Point> PlateRim::chain(int first, double distance, double 
   const auto addArc = [&](int corner, double begin, double end)
   {
     const double turn = std::max(0.0, corners_[corner].turn) * (end - begin);
-    parts.push_back({ true, corner, begin, end, distance * turn, along, angle });
+    parts.push_back({ true, corner, begin, end, distance * turn, along, angle, turn });
     total += distance * turn;
     angle += turn;
   };
@@ -209,7 +201,7 @@ std::vector<PlateRim::Point> PlateRim::chain(int first, double distance, double 
     addArc(side, side == first ? 0.5 : 0.0, 1.0);
     const double begin = this->startOf(side, distance);
     const double end = this->endOf(side, distance);
-    parts.push_back({ false, side, begin, end, end - begin, along, angle });
+    parts.push_back({ false, side, begin, end, end - begin, along, angle, 0.0 });
     total += end - begin;
     along += sides_[side].length;
     side = this->after(side);
@@ -220,43 +212,39 @@ std::vector<PlateRim::Point> PlateRim::chain(int first, double distance, double 
   // A point in the middle, so that no two edges of neighbouring curves face each other there: their
   // diagonal would be no mirror image of itself.
   count += count >= 3 ? count % 2 : 0;
-  std::vector<Point> points;
-  points.reserve(static_cast<std::size_t>(count) + 1);
+  Chain chain;
+  chain.points.reserve(static_cast<std::size_t>(count) + 1);
+  chain.middles.reserve(static_cast<std::size_t>(count));
+  chain.end = { along - distance * corners_[last].mitre, angle };
   std::size_t k = 0;
   double before = 0.0; // length of the parts before part k
-  for (int step = 0; step <= count; ++step)
+  for (int half = 0; half <= 2 * count; ++half)
   {
-    const double t = total * step / count;
+    const double t = total * half / (2 * count);
     while (k + 1 < parts.size() && t > before + parts[k].length)
     {
       before += parts[k++].length;
     }
     const Part& part = parts[k];
-    const double share =
-      part.length > 0.0 ? std::clamp((t - before) / part.length, 0.0, 1.0) : double(step == count);
+    const double share = part.length > 0.0 ? std::clamp((t - before) / part.length, 0.0, 1.0)
+                                           : double(half == 2 * count);
     const double at = part.begin + share * (part.end - part.begin);
-    Point p = part.isArc ? this->onArc(part.at, at) : this->onSide(part.at, at);
-    p.along = part.along + (part.isArc ? 0.0 : at);
-    p.angle = part.angle +
-      (part.isArc ? share * (part.end - part.begin) * std::max(0.0, corners_[part.at].turn) : 0.0);
-    points.push_back(p);
+    if (half % 2 == 0)
+    {
+      chain.points.push_back(part.isArc ? this->onArc(part.at, at) : this->onSide(part.at, at));
+    }
+    else
+    {
+      chain.middles.push_back(part.isArc ? Place{ part.along, part.angle + share * part.turn }
+                                         : Place{ part.along + at, part.angle });
+    }
   }
   // The ends bit for bit where the neighbouring chain has them.
-  const auto place = [&](Point& point, int corner)
-  {
-    const Point exact =
-      corners_[corner].mitre > 0.0 ? this->onMitre(corner) : this->onArc(corner, 0.5);
-    point.foot = exact.foot;
-    point.outward = exact.outward;
-    point.normal = exact.normal;
-  };
-  place(points.front(), first);
-  place(points.back(), last);
-  points.front().along = distance * corners_[first].mitre;
-  points.front().angle = 0.0;
-  points.back().along = along - distance * corners_[last].mitre;
-  points.back().angle = angle;
-  return points;
+  const auto atBreak = [this](int corner)
+  { return corners_[corner].mitre > 0.0 ? this->onMitre(corner) : this->onArc(corner, 0.5); };
+  chain.points.front() = atBreak(first);
+  chain.points.back() = atBreak(last);
+  return chain;
 }
 
 PlateRim::Ring PlateRim::curve(double distance, double spacing) const

@@ -29,12 +29,21 @@ public:
     Vec2 foot;
     Vec2 outward; ///< a unit vector, longer on a mitre
     Vec2 normal;  ///< of the outline's plane; shorter than 1 on a mitre, as the mean of two
-    /// Where it is on its chain: along the sides, and turned around corners. Both increase.
-    double along;
-    double angle;
   };
-  /// The points of each chain, both ends included: the last is the first of the next chain.
-  using Ring = std::vector<std::vector<Point>>;
+  /// Where something is on its chain: along the sides, and turned around corners. Both increase.
+  struct Place
+  {
+    double along = 0.0;
+    double angle = 0.0;
+  };
+  /// Between two breaks.
+  struct Chain
+  {
+    std::vector<Point> points;  ///< both ends included: the last is the first of the next chain
+    std::vector<Place> middles; ///< of the edges between them
+    Place end;
+  };
+  using Ring = std::vector<Chain>;
 
   /// The outline: `counts` edges on each side.
   Ring outline(const std::vector<int>& counts) const;
@@ -65,7 +74,7 @@ private:
   Point onSide(int side, double at) const;
   Point onArc(int corner, double share) const;
   Point onMitre(int corner) const;
-  std::vector<Point> chain(int first, double distance, double spacing) const;
+  Chain chain(int first, double distance, double spacing) const;
   bool sideIsClear(int side, double distance) const;
   bool arcIsClear(int corner, double distance) const;
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "core/mesh/AddTriangle.h"
 #include "core/skeletons/BoxGrid.h"
 #include "core/skeletons/OffsetMesh.h"
 
@@ -22,7 +23,8 @@ public:
 
   void add(int a, int b, int c, bool flip)
   {
-    triangles_.push_back(flip != mirrored_ ? Triangle{ a, c, b } : Triangle{ a, b, c });
+    const bool other = flip != mirrored_;
+    addTriangle(triangles_, a, other ? c : b, other ? b : c);
   }
 
   // A cell with corners in this cyclic order, cut from a to c or from b to d.
