@@ -16,6 +16,11 @@ constexpr double kMembrane = 1.75;
 // Twice a wide membrane would do for speed, but made handles on one in twenty meshes.
 constexpr double kEmpty = 12.0;
 
+std::uint8_t bitOf(int facet)
+{
+  return static_cast<std::uint8_t>(1u << facet);
+}
+
 } // namespace
 
 Front::Front(
@@ -24,8 +29,8 @@ Front::Front(
   , sizes_(sizes)
   , regions_(regions)
   , inside_(tetrahedra.cellCount(), 0)
-  , surfaceFacets_(tetrahedra.points().size(), 0)
-  , firstWaiting_(tetrahedra.points().size(), -1)
+  , held_(tetrahedra.cellCount(), 0)
+  , reached_(tetrahedra.points().size(), 0)
 {
   for (std::int32_t cell = 0; cell < tetrahedra_.cellCount(); ++cell)
   {
@@ -113,6 +118,7 @@ void Front::passEmptySpace(const Progress& progress)
   }
   for (const std::int32_t cell : passed)
   {
+    this->reach(cell);
     for (int facet = 0; facet < 4; ++facet)
     {
       const std::int32_t beyond = tetrahedra_.neighbor(cell, facet);
@@ -165,7 +171,7 @@ bool Front::isBuried(std::int32_t cell) const
 {
   const auto& vertices = tetrahedra_.cell(cell);
   return std::all_of(vertices.begin(), vertices.end(),
-    [this](std::int32_t vertex) { return surfaceFacets_[vertex] == 0; });
+    [this](std::int32_t vertex) { return reached_[vertex] == 0; });
 }
 
 // Passes the whole membrane that a cell is of: what is left of the outside around it. Its narrower
@@ -200,13 +206,12 @@ bool Front::mayEverPass(std::int32_t cell, int facet) const
 
 bool Front::mayPass(std::int32_t halfFacet)
 {
-  std::int32_t blocker = 0;
   const std::int32_t cell = halfFacet >> 2;
-  if (this->keepsTopology(cell, blocker))
+  if (this->keepsTopology(cell))
   {
     return true;
   }
-  this->hold(halfFacet, blocker);
+  held_[cell] |= bitOf(halfFacet & 3);
   // ofFacet is no less, and cheaper.
   if (regions_[cell] == Region::Outside && sizes_.ofFacet(cell, halfFacet & 3) > kMembrane)
   {
@@ -219,35 +224,10 @@ bool Front::mayPass(std::int32_t halfFacet)
   return false;
 }
 
-void Front::hold(std::int32_t halfFacet, std::int32_t vertex)
-{
-  if (unused_ < 0)
-  {
-    unused_ = static_cast<std::int32_t>(waiting_.size());
-    waiting_.push_back({ halfFacet, -1 });
-  }
-  const std::int32_t entry = unused_;
-  unused_ = waiting_[entry].next;
-  waiting_[entry] = { halfFacet, firstWaiting_[vertex] };
-  firstWaiting_[vertex] = entry;
-}
-
-void Front::release(std::int32_t vertex)
-{
-  while (firstWaiting_[vertex] >= 0)
-  {
-    const std::int32_t entry = firstWaiting_[vertex];
-    firstWaiting_[vertex] = waiting_[entry].next;
-    const std::int32_t halfFacet = waiting_[entry].halfFacet;
-    queue_.push(sizes_.ofFacet(halfFacet >> 2, halfFacet & 3), halfFacet);
-    waiting_[entry].next = unused_;
-    unused_ = entry;
-  }
-}
-
 void Front::pass(std::int32_t cell)
 {
   inside_[cell] = 0;
+  this->reach(cell);
   for (int facet = 0; facet < 4; ++facet)
   {
     const std::int32_t beyond = tetrahedra_.neighbor(cell, facet);
@@ -255,38 +235,43 @@ void Front::pass(std::int32_t cell)
     {
       this->uncover(beyond, tetrahedra_.mirror(cell, facet));
     }
-    else
+  }
+}
+
+void Front::reach(std::int32_t cell)
+{
+  for (const std::int32_t vertex : tetrahedra_.cell(cell))
+  {
+    if (vertex != Tetrahedralization::kInfinite)
     {
-      this->cancel(cell, facet);
+      reached_[vertex] = 1;
     }
   }
 }
 
+// What was held before its cell is tried again, since the cell has one more open facet now. Nothing
+// else could help: a vertex or edge that the front has come to never leaves it but with the cell.
 void Front::uncover(std::int32_t cell, int facet)
 {
-  for (const std::int32_t vertex : tetrahedra_.facet(cell, facet))
-  {
-    ++surfaceFacets_[vertex];
-  }
+  std::uint8_t tried = held_[cell];
+  held_[cell] = 0;
   if (this->mayEverPass(cell, facet))
   {
-    queue_.push(sizes_.ofFacet(cell, facet), 4 * cell + facet);
+    tried |= bitOf(facet);
   }
-}
-
-void Front::cancel(std::int32_t cell, int facet)
-{
-  for (const std::int32_t vertex : tetrahedra_.facet(cell, facet))
+  for (int k = 0; tried >> k != 0; ++k)
   {
-    --surfaceFacets_[vertex];
-    this->release(vertex);
+    if ((tried & bitOf(k)) != 0)
+    {
+      queue_.push(sizes_.ofFacet(cell, k), 4 * cell + k);
+    }
   }
 }
 
 // Sculpting moves that leave the surface a manifold of the same genus: one facet in, onto a vertex
 // that is not on the surface; two facets flipped over an edge that is not on it; a spike of three
 // facets, or a lone tetrahedron of the outside, removed.
-bool Front::keepsTopology(std::int32_t cell, std::int32_t& blocker) const
+bool Front::keepsTopology(std::int32_t cell) const
 {
   int open[4] = { 0, 0, 0, 0 };
   int openCount = 0;
@@ -297,10 +282,9 @@ bool Front::keepsTopology(std::int32_t cell, std::int32_t& blocker) const
       open[openCount++] = facet;
     }
   }
-  blocker = tetrahedra_.cell(cell)[open[0]];
   if (openCount == 1)
   {
-    return surfaceFacets_[blocker] == 0;
+    return reached_[tetrahedra_.cell(cell)[open[0]]] == 0;
   }
   if (openCount == 4)
   {

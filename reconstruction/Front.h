@@ -57,11 +57,6 @@ private:
       return size != other.size ? size < other.size : halfFacet < other.halfFacet;
     }
   };
-  struct Waiting
-  {
-    std::int32_t halfFacet;
-    std::int32_t next;
-  };
 
   bool isInside(std::int32_t cell) const { return inside_[cell] != 0; }
   bool onSurface(std::int32_t cell, int facet) const
@@ -73,15 +68,13 @@ private:
   void flow(const Progress& progress);
   void openVoids(const Progress& progress);
   bool isBuried(std::int32_t cell) const;
+  void reach(std::int32_t cell);
   void uncover(std::int32_t cell, int facet);
-  void cancel(std::int32_t cell, int facet);
   bool mayEverPass(std::int32_t cell, int facet) const;
   bool mayPass(std::int32_t halfFacet);
-  void hold(std::int32_t halfFacet, std::int32_t vertex);
-  void release(std::int32_t vertex);
   void tear(std::int32_t cell);
   void pass(std::int32_t cell);
-  bool keepsTopology(std::int32_t cell, std::int32_t& blocker) const;
+  bool keepsTopology(std::int32_t cell) const;
   bool edgeIsBuried(std::int32_t cell, int i, int j) const;
 
   const Tetrahedralization& tetrahedra_;
@@ -89,12 +82,9 @@ private:
   const std::vector<Region>& regions_;
   bool openPockets_ = true;
   std::size_t passed_ = 0;
-  std::vector<std::uint8_t> inside_;        // per cell
-  std::vector<std::int32_t> surfaceFacets_; // per point: facets of the surface around it
-  // Facets that wait for a point to be freed: lists in one pool, the first of each per point.
-  std::vector<std::int32_t> firstWaiting_;
-  std::vector<Waiting> waiting_;
-  std::int32_t unused_ = -1; // first of the pool's free entries
+  std::vector<std::uint8_t> inside_;  // per cell
+  std::vector<std::uint8_t> held_;    // per cell: facets through which it may not be passed yet
+  std::vector<std::uint8_t> reached_; // per point: whether a cell around it is passed
   SizeQueue queue_;
   std::priority_queue<Membrane> membranes_;
 };
