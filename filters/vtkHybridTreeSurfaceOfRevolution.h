@@ -7,6 +7,10 @@
  * drawn anywhere in space will do. As a solid the primitive fills what is between profile and axis
  * (or what a closed profile encloses), otherwise it is a wall of twice SurfaceRadius.
  *
+ * The optional input draws the profile: what its first line goes on to draw, be it one polyline or
+ * many pieces that share points, as a slice has them; or else its first polygon. Further lines do
+ * not count. Without an input the points make the profile.
+ *
  * LevelOfDetail leaves points of the profile out, so that the field is cheaper to evaluate.
  *
  * The points are the profile, from one end of the axis to the other; repeats are dropped. Default
@@ -18,6 +22,8 @@
 
 #include "HybridTreeFiltersModule.h" // for export macro
 #include "vtkHybridTreePointsAlgorithm.h"
+
+class vtkPolyData;
 
 class HYBRIDTREEFILTERS_EXPORT vtkHybridTreeSurfaceOfRevolution
   : public vtkHybridTreePointsAlgorithm
@@ -46,7 +52,8 @@ public:
 
   ///@{
   /**
-   * Join the last point to the first, which needs three points. Default off.
+   * Join the last point to the first, which needs three points. Default off. Lines of an input that
+   * close make a closed profile by themselves.
    */
   vtkSetMacro(Closed, bool);
   vtkGetMacro(Closed, bool);
@@ -94,7 +101,11 @@ protected:
 
 #ifndef __VTK_WRAP__
   std::shared_ptr<const hybridtree::Skeleton> MakeSkeleton() override;
+  bool TakesNodes(int port) override;
+  bool ReadOtherInputs(vtkInformationVector** inputs) override;
 #endif
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
 
   int Kind = CATMULL_ROM;
   bool Closed = false;
@@ -104,6 +115,9 @@ protected:
   int LevelOfDetail = 4;
 
 private:
+  vtkPolyData* Input = nullptr; ///< only during a run; null without one
+  vtkMTimeType InputTime = 0;
+
   vtkHybridTreeSurfaceOfRevolution(const vtkHybridTreeSurfaceOfRevolution&) = delete;
   void operator=(const vtkHybridTreeSurfaceOfRevolution&) = delete;
 };

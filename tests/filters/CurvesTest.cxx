@@ -19,6 +19,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace hybridtree::test
 {
@@ -105,6 +106,80 @@ TEST(Curves, RevolutionTakesPointsFromAnywhereAround)
   }
   vase->Update();
   EXPECT_NEAR(volumeOf(vase->GetOutput()), volume, 1e-6 * volume);
+}
+
+// The points of the default profile as lines: as one polyline, and in pieces that run either way.
+vtkNew<vtkPolyData> drawnVase(bool inPieces)
+{
+  vtkNew<vtkPolyData> data;
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkCellArray> lines;
+  points->SetDataTypeToDouble();
+  vtkNew<vtkHybridTreeSurfaceOfRevolution> vase;
+  for (int k = 0; k < vase->GetNumberOfPoints(); ++k)
+  {
+    double p[3];
+    vase->GetPoint(k, p);
+    points->InsertNextPoint(p);
+  }
+  if (inPieces)
+  {
+    for (const auto& [a, b] : { std::pair{ 2, 1 }, { 0, 1 }, { 2, 3 } })
+    {
+      const vtkIdType ids[2] = { a, b };
+      lines->InsertNextCell(2, ids);
+    }
+  }
+  else
+  {
+    const vtkIdType ids[4] = { 0, 1, 2, 3 };
+    lines->InsertNextCell(4, ids);
+  }
+  data->SetPoints(points);
+  data->SetLines(lines);
+  return data;
+}
+
+TEST(Curves, TheProfileMayBeDrawn)
+{
+  vtkNew<vtkHybridTreeSurfaceOfRevolution> vase;
+  vase->SetEdgeLength(0.05);
+  vase->Update();
+  const double volume = volumeOf(vase->GetOutput());
+  vase->SetNumberOfPoints(1); // which nobody asks for with an input
+  for (const bool inPieces : { false, true })
+  {
+    const vtkNew<vtkPolyData> drawing = drawnVase(inPieces);
+    vase->SetInputData(drawing);
+    vase->Update();
+    expectSolid(vase->GetOutput());
+    EXPECT_NEAR(volumeOf(vase->GetOutput()), volume, 1e-6 * volume);
+    drawing->GetPoints()->SetPoint(1, 1.2, 0.0, -0.4);
+    drawing->GetPoints()->Modified();
+    drawing->Modified();
+    vase->Update();
+    EXPECT_GT(volumeOf(vase->GetOutput()), 1.1 * volume);
+  }
+  vase->SetInputData(nullptr);
+  expectError(vase, { "oints" });
+}
+
+TEST(Curves, LinesThatCloseAreAClosedProfile)
+{
+  const vtkNew<vtkPolyData> drawing = drawnVase(true);
+  const vtkIdType last[2] = { 0, 3 };
+  drawing->GetLines()->InsertNextCell(2, last);
+  vtkNew<vtkHybridTreeSurfaceOfRevolution> ring;
+  ring->SetInputData(drawing);
+  ring->SetKind(vtkHybridTreeSurfaceOfRevolution::POLYLINE);
+  ring->Update();
+  expectSolid(ring->GetOutput());
+  const double drawn = volumeOf(ring->GetOutput());
+  vtkNew<vtkHybridTreeSurfaceOfRevolution> same;
+  same->SetKind(vtkHybridTreeSurfaceOfRevolution::POLYLINE);
+  same->ClosedOn();
+  same->Update();
+  EXPECT_NEAR(drawn, volumeOf(same->GetOutput()), 1e-6 * drawn);
 }
 
 TEST(Curves, AllCurvesAreOneNode)
@@ -213,6 +288,10 @@ TEST(Curves, BadInputsAreNamed)
   vtkNew<vtkHybridTreeSurfaceOfRevolution> vase;
   vase->SetAxis(0.0, 0.0, 0.0);
   expectError(vase, { "Axis" });
+  vase->SetAxis(0.0, 0.0, 1.0);
+  vtkNew<vtkPolyData> nothing;
+  vase->SetInputData(nothing);
+  expectError(vase, { "neither lines nor a polygon" });
 }
 
 TEST(Curves, LowerLevelsOfDetailHaveFewerPointsButNearlyTheSameShape)

@@ -69,6 +69,8 @@ def pipeline(folder):
         Input=nodes["HybridTreeSkeletonEditor"], RadiusArray="Radius")
     nodes["HybridTreePolygonFromOutline"] = make["HybridTreePolygonFromOutline"](
         Input=simple.PolyLineSource(Points=[0, 0, 0, 1, 0, 0, 1, 1, 0, 0.5, 0.3, 0], Closed=1))
+    nodes["HybridTreeSurfaceOfRevolutionFromProfile"] = make["HybridTreeSurfaceOfRevolutionFromProfile"](
+        Input=simple.PolyLineSource(Points=[0.2, 0, -0.3, 0.3, 0, 0, 0.1, 0, 0.3]), SurfaceRadius=0.05, InfluenceRadius=0.15)
     nodes["HybridTreeProbe"] = make["HybridTreeProbe"](Tree=nodes["HybridTreeBoolean"], Points=simple.Wavelet(
         WholeExtent=[-3, 3, -3, 3, -3, 3]))
     return nodes

@@ -29,6 +29,7 @@ PROXIES = {  # name: group. The label is the name with its words apart.
     "HybridTreeSurfaceOfRevolution": "sources",
     "HybridTreeCurveSkeletons": "filters",
     "HybridTreePolygonFromOutline": "filters",
+    "HybridTreeSurfaceOfRevolutionFromProfile": "filters",
     "HybridTreeSkeletonEditor": "sources",
     "HybridTreeSubdivisionSkeleton": "filters",
     "HybridTreeMeshField": "filters",

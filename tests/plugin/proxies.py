@@ -35,6 +35,7 @@ NAMES = {
     "HybridTreeSpline": FIELD | {"Points", "Kind", "Closed", "LevelOfDetail"},
     "HybridTreeSurfaceOfRevolution": FIELD
     | {"Points", "Kind", "Closed", "Origin", "Axis", "Solid", "LevelOfDetail"},
+    "HybridTreeSurfaceOfRevolutionFromProfile": FIELD | {"Input", "Kind", "Origin", "Axis", "Solid", "LevelOfDetail"},
     "HybridTreeCurveSkeletons": FIELD | {"Input", "RadiusArray", "As", "Blend", "LevelOfDetail"},
     "HybridTreeSkeletonEditor": {"Points", "Radii", "Segments", "Triangles", "Scheme", "Level"},
     "HybridTreeSubdivisionSkeleton": COMMON
