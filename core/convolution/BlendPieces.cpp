@@ -2,6 +2,8 @@
 #include "core/convolution/BlendPieces.h"
 
 #include "core/base/Error.h"
+#include "core/convolution/ElementBounds.h"
+#include "core/convolution/ElementTree.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +14,12 @@ namespace hybridtree
 {
 namespace
 {
+
+void makeUnique(std::vector<std::int32_t>& list)
+{
+  std::sort(list.begin(), list.end());
+  list.erase(std::unique(list.begin(), list.end()), list.end());
+}
 
 constexpr double kPieceLength = 0.5; // in units of R
 constexpr int kMostParts = 1024;     // of a segment
@@ -87,8 +95,7 @@ public:
     for (std::size_t group = 0; group < lists.size(); ++group)
     {
       std::vector<std::int32_t>& list = lists[group];
-      std::sort(list.begin(), list.end());
-      list.erase(std::unique(list.begin(), list.end()), list.end());
+      makeUnique(list);
       list.erase(
         std::remove(list.begin(), list.end(), static_cast<std::int32_t>(group)), list.end());
     }
@@ -109,8 +116,7 @@ private:
         groups.push_back(near.group);
       }
     }
-    std::sort(groups.begin(), groups.end());
-    groups.erase(std::unique(groups.begin(), groups.end()), groups.end());
+    makeUnique(groups);
     for (const std::int32_t group : groups)
     {
       std::array<double, N> corners;
@@ -195,8 +201,7 @@ public:
     }
     for (std::vector<std::int32_t>& list : neighbours_)
     {
-      std::sort(list.begin(), list.end());
-      list.erase(std::unique(list.begin(), list.end()), list.end());
+      makeUnique(list);
     }
   }
 
@@ -302,6 +307,65 @@ BlendPieces cutAll(const GroupedElements& elements, const Places& places)
   return pieces;
 }
 
+// Where a compact kernel has a field.
+template <class Element>
+Box3 reachOf(const Element& element)
+{
+  const Vec3 reach = Vec3::Constant(largestReach(element));
+  const Box3 box = boundsOf(element);
+  return Box3(Vec3(box.min() - reach), Vec3(box.max() + reach));
+}
+
+template <typename Body>
+void forEachPiece(const BlendPieces& pieces, const Body& body)
+{
+  for (std::size_t k = 0; k < pieces.segments.size(); ++k)
+  {
+    body(pieces.segmentPlaces[k], reachOf(pieces.segments[k]));
+  }
+  for (std::size_t k = 0; k < pieces.triangles.size(); ++k)
+  {
+    body(pieces.trianglePlaces[k], reachOf(pieces.triangles[k]));
+  }
+}
+
+// BlendPieces::farthest.
+std::vector<std::vector<GroupDistance>> farthestPlaces(const BlendPieces& pieces, double farthest)
+{
+  std::vector<Box3> reaches(pieces.neighbours.size());
+  forEachPiece(pieces,
+    [&](const BlendPieces::Place& place, const Box3& reach)
+    { reaches[static_cast<std::size_t>(place.group)].extend(reach); });
+  const ElementTree tree(reaches);
+  std::vector<std::vector<GroupDistance>> lists(reaches.size());
+  forEachPiece(pieces,
+    [&](const BlendPieces::Place& place, const Box3& reach)
+    {
+      tree.visit(reach,
+        [&](std::uint32_t at)
+        {
+          const std::uint32_t other = tree.order()[at];
+          const auto group = static_cast<std::int32_t>(other);
+          if (group != place.group && reach.intersects(reaches[other]))
+          {
+            lists[static_cast<std::size_t>(place.group)].push_back(
+              { group, place.from(group, farthest) });
+          }
+        });
+    });
+  for (std::vector<GroupDistance>& list : lists)
+  {
+    // The farthest of a group first: it stays.
+    std::sort(list.begin(), list.end(),
+      [](const GroupDistance& a, const GroupDistance& b)
+      { return a.group != b.group ? a.group < b.group : a.distance > b.distance; });
+    list.erase(std::unique(list.begin(), list.end(),
+                 [](const GroupDistance& a, const GroupDistance& b) { return a.group == b.group; }),
+      list.end());
+  }
+  return lists;
+}
+
 } // namespace
 
 void validate(const BlendingControl& control)
@@ -314,11 +378,27 @@ void validate(const BlendingControl& control)
   }
 }
 
+double BlendPieces::Place::from(std::int32_t other, double farthest) const
+{
+  if (other == group)
+  {
+    return 0.0;
+  }
+  const auto near = std::lower_bound(distances.begin(), distances.end(), other,
+    [](const GroupDistance& a, std::int32_t b) { return a.group < b; });
+  return near != distances.end() && near->group == other ? near->distance : farthest;
+}
+
 BlendPieces makeBlendPieces(const GroupedElements& elements, const BlendingControl& control)
 {
-  return control.kind == BlendingKind::Paper
-    ? cutAll(elements, PaperPlaces(elements))
-    : cutAll(elements, GraphPlaces(elements, BlendShare(control).end()));
+  if (control.kind == BlendingKind::Paper)
+  {
+    return cutAll(elements, PaperPlaces(elements));
+  }
+  const BlendShare share(control);
+  BlendPieces pieces = cutAll(elements, GraphPlaces(elements, share.end()));
+  pieces.farthest = farthestPlaces(pieces, share.farthest());
+  return pieces;
 }
 
 } // namespace hybridtree

@@ -19,13 +19,19 @@ struct BlendPieces
   struct Place
   {
     std::int32_t group;
-    std::vector<GroupDistance> distances; ///< from other groups, those below the limit
+    std::vector<GroupDistance> distances; ///< from other groups, ascending: those near enough
+
+    /// From a group; `farthest` unless near enough.
+    double from(std::int32_t other, double farthest) const;
   };
   std::vector<Place> segmentPlaces;
   std::vector<Place> trianglePlaces;
 
   /// Per group, ascending, without itself: those it may blend with. Symmetric.
   std::vector<std::vector<std::int32_t>> neighbours;
+  /// Per group, ascending: others with fields at places where it has one, with the compact kernel,
+  /// and how far its pieces that reach there are from them at most. Empty as [SUB].
+  std::vector<std::vector<GroupDistance>> farthest;
 };
 
 /// \pre control.kind is not BlendingKind::All.

@@ -8,28 +8,42 @@
 namespace hybridtree
 {
 
-/// What the field in a box is made of: one sum, or the largest of several, each for a set of groups
-/// that blend there.
+/// What the field in a box is made of.
 struct BlendSelection
 {
-  /// A group whose share varies in the box.
-  struct Term
+  /// A group, or several that blend fully with whatever is in reach: elements in a row of `all`,
+  /// from where those of the unit before end.
+  struct Unit
   {
-    ElementSelection own;
-    std::vector<double> distances; ///< of the cluster's pieces from the group
-    double span;                   ///< between the largest and the least of them
+    std::size_t segmentsEnd;
+    std::size_t trianglesEnd;
   };
-  struct Cluster
+  /// Units whose shares in each other's sums may be below 1.
+  struct Pair
   {
-    ElementSelection plain;  ///< elements that count in full
-    ElementSelection pieces; ///< that say where the point is; empty without terms
-    std::vector<Term> terms;
+    std::size_t a, b;
+    bool areNeighbours; ///< there are sums with both
   };
 
-  ElementSelection all;          ///< all elements that reach the box
-  std::vector<Cluster> clusters; ///< empty where everything adds up
+  ElementSelection all; ///< all elements that reach the box
+  /// Not everything adds up. Without units nothing more is known.
+  bool isControlled = false;
+  std::vector<Unit> units;
+  bool hasRest; ///< unit 0 is not a single group: it is in no pair
+  std::vector<Pair> apart;
+  /// Row by row of units x units: how far places on the first that reach the second are from it at
+  /// most; for the rest, places on any of its groups or the distance from any.
+  std::vector<double> farthest;
 
   bool empty() const { return all.empty(); }
+  ElementSpans elementsOf(std::size_t unit) const
+  {
+    const Unit first = unit == 0 ? Unit{ 0, 0 } : units[unit - 1];
+    return {
+      { all.segments.data() + first.segmentsEnd, units[unit].segmentsEnd - first.segmentsEnd },
+      { all.triangles.data() + first.trianglesEnd, units[unit].trianglesEnd - first.trianglesEnd }
+    };
+  }
 };
 
 } // namespace hybridtree

@@ -2,350 +2,172 @@
 #include "core/convolution/BlendSelector.h"
 
 #include <algorithm>
-#include <limits>
+#include <utility>
 
 namespace hybridtree
 {
 namespace
 {
 
-// Finds which groups blend in a box.
+// Finds the units of a selection.
 class Finder
 {
 public:
-  using Groups = std::vector<std::int32_t>;
-
-  Finder(const BlendGroups& field, const ElementSelection& all)
-    : field_(field), share_(field.control), all_(all)
+  Finder(const BlendGroups& field, BlendSelection& selection)
+    : field_(field)
+    , begin_(BlendShare(field.control).begin())
+    , selection_(selection)
+    , numbers_(field.size())
   {
-    for (const SegmentElement* segment : all.segments)
+    for (const SegmentElement* segment : selection.all.segments)
     {
-      segmentGroups_.push_back(field.segmentGroups[field.whole.index(segment)]);
+      segmentGroups_.push_back(numbers_.add(field.segmentGroups[field.whole.index(segment)]));
     }
-    for (const TriangleElement* triangle : all.triangles)
+    for (const TriangleElement* triangle : selection.all.triangles)
     {
-      triangleGroups_.push_back(field.triangleGroups[field.whole.index(triangle)]);
+      triangleGroups_.push_back(numbers_.add(field.triangleGroups[field.whole.index(triangle)]));
     }
-    groups_ = segmentGroups_;
-    groups_.insert(groups_.end(), triangleGroups_.begin(), triangleGroups_.end());
-    makeUnique(groups_);
   }
 
-  std::vector<BlendSelection::Cluster> clusters(const Box3& box)
+  void find()
   {
-    std::vector<Groups> sets = this->groupSets();
-    this->findPieces(box);
-    if (sets.front() == groups_ && this->isPlain(groups_))
-    {
-      return {}; // no sum is larger than that of all
-    }
-    this->dropSmall(box, sets);
-    std::vector<BlendSelection::Cluster> clusters;
-    for (const Groups& set : sets)
-    {
-      clusters.push_back(this->cluster(set));
-    }
-    return clusters;
-  }
-
-private:
-  static void makeUnique(Groups& groups)
-  {
-    std::sort(groups.begin(), groups.end());
-    groups.erase(std::unique(groups.begin(), groups.end()), groups.end());
-  }
-
-  const Groups& neighboursOf(std::int32_t group) const
-  {
-    return field_.places.neighbours[static_cast<std::size_t>(group)];
-  }
-  bool isPaper() const { return field_.control.kind == BlendingKind::Paper; }
-
-  // Per candidate i: the groups in reach that its sum may have. As [SUB]: i first.
-  std::vector<Groups> groupSets() const
-  {
-    Groups candidates = groups_;
-    if (!this->isPaper())
-    {
-      for (const std::int32_t group : groups_)
-      {
-        const Groups& others = this->neighboursOf(group);
-        candidates.insert(candidates.end(), others.begin(), others.end());
-      }
-      makeUnique(candidates);
-    }
-    std::vector<Groups> sets;
-    for (const std::int32_t candidate : candidates)
-    {
-      const Groups& others = this->neighboursOf(candidate);
-      Groups& set = sets.emplace_back();
-      for (const std::int32_t group : groups_)
-      {
-        if (group == candidate || std::binary_search(others.begin(), others.end(), group))
-        {
-          set.push_back(group);
-        }
-      }
-      if (this->isPaper())
-      {
-        std::iter_swap(set.begin(), std::find(set.begin(), set.end(), candidate));
-      }
-    }
-    std::sort(sets.begin(), sets.end());
-    sets.erase(std::unique(sets.begin(), sets.end()), sets.end());
-    // Large sets first: they may make the others needless.
-    std::stable_sort(sets.begin(), sets.end(),
-      [](const Groups& a, const Groups& b) { return a.size() > b.size(); });
-    return sets;
-  }
-
-  // Sets whose sum stays below the field of some group alone: with a kernel without end, most.
-  void dropSmall(const Box3& box, std::vector<Groups>& sets) const
-  {
-    constexpr std::size_t kFew = 4; // not worth the search
-    if (sets.size() <= kFew)
+    this->numberUnits();
+    if (selection_.units.empty())
     {
       return;
     }
-    double least = 0.0;
-    std::vector<double> most;
-    for (const std::int32_t group : groups_)
-    {
-      ElementSelection own;
-      this->collect({ group }, own);
-      const Interval range = field_.whole.range(own, box);
-      least = std::max(least, range.min);
-      most.push_back(range.max);
-    }
-    const auto isSmall = [&](const Groups& set)
-    {
-      double sum = 0.0;
-      for (const std::int32_t group : set)
-      {
-        sum += most[static_cast<std::size_t>(
-          std::lower_bound(groups_.begin(), groups_.end(), group) - groups_.begin())];
-      }
-      return sum < least;
-    };
-    sets.erase(std::remove_if(sets.begin(), sets.end(), isSmall), sets.end());
+    selection_.isControlled = true;
+    this->sortElements(segmentGroups_, selection_.all.segments, &BlendSelection::Unit::segmentsEnd);
+    this->sortElements(
+      triangleGroups_, selection_.all.triangles, &BlendSelection::Unit::trianglesEnd);
+    this->findPairs();
   }
 
-  // The pieces in reach, how far they are from the groups in reach, and per pair of groups how far
-  // at most.
-  void findPieces(const Box3& box)
+private:
+  const std::vector<GroupDistance>& farthest(std::size_t number) const
   {
-    field_.pieces.select(box, pieces_);
-    most_.assign(groups_.size() * groups_.size(), 0.0);
-    this->findReaches();
-    for (const SegmentElement* segment : pieces_.segments)
-    {
-      this->addPlace(field_.places.segmentPlaces[field_.pieces.index(segment)], reachOf(*segment));
-    }
-    for (const TriangleElement* triangle : pieces_.triangles)
-    {
-      this->addPlace(
-        field_.places.trianglePlaces[field_.pieces.index(triangle)], reachOf(*triangle));
-    }
+    return field_.places.farthest[static_cast<std::size_t>(numbers_.group(number))];
   }
 
-  // Where an element, or the part of a group in reach, has a field. The Cauchy kernel: everywhere;
-  // and as [SUB] what cuts the others' fields has to stay where there is none.
+  // Single units are the groups with another in reach that they may be apart from. The rest of the
+  // groups is unit 0.
+  void numberUnits()
+  {
+    const std::size_t count = numbers_.size();
+    units_.assign(count, 0);
+    for (std::size_t k = 0; k < count; ++k)
+    {
+      for (const GroupDistance& other : this->farthest(k))
+      {
+        const std::int32_t number = other.distance > begin_ ? numbers_.find(other.group) : -1;
+        if (number >= 0)
+        {
+          units_[k] = units_[static_cast<std::size_t>(number)] = 1;
+        }
+      }
+    }
+    const auto singles = static_cast<std::size_t>(std::count(units_.begin(), units_.end(), 1));
+    if (singles == 0)
+    {
+      return;
+    }
+    selection_.hasRest = singles < count;
+    std::size_t next = selection_.hasRest ? 1 : 0;
+    for (std::size_t& unit : units_)
+    {
+      unit = unit == 1 ? next++ : 0;
+    }
+    selection_.units.assign(next, { 0, 0 });
+  }
+
+  // By units, in order within each.
   template <class Element>
-  Box3 reachOf(const Element& element) const
+  void sortElements(const std::vector<std::size_t>& groups, std::vector<const Element*>& elements,
+    std::size_t BlendSelection::Unit::*end)
   {
-    const double reach = field_.whole.kernel().kind == KernelKind::Cauchy || this->isPaper()
-      ? std::numeric_limits<double>::infinity()
-      : largestReach(element);
-    const Box3 box = boundsOf(element);
-    return Box3(Vec3(box.min() - Vec3::Constant(reach)), Vec3(box.max() + Vec3::Constant(reach)));
+    std::vector<BlendSelection::Unit>& units = selection_.units;
+    for (const std::size_t group : groups)
+    {
+      ++(units[units_[group]].*end);
+    }
+    std::size_t begin = 0;
+    for (BlendSelection::Unit& unit : units)
+    {
+      begin += std::exchange(unit.*end, begin);
+    }
+    static thread_local std::vector<const Element*> sorted;
+    sorted.resize(elements.size());
+    for (std::size_t k = 0; k < elements.size(); ++k)
+    {
+      sorted[(units[units_[groups[k]]].*end)++] = elements[k];
+    }
+    elements.swap(sorted);
   }
 
-  void findReaches()
+  void findPairs()
   {
-    reaches_.resize(groups_.size());
-    for (std::size_t k = 0; k < all_.segments.size(); ++k)
+    const std::size_t count = selection_.units.size();
+    selection_.farthest.assign(count * count, 0.0);
+    for (std::size_t k = 0; k < numbers_.size(); ++k)
     {
-      reaches_[this->indexOf(segmentGroups_[k])].extend(reachOf(*all_.segments[k]));
-    }
-    for (std::size_t k = 0; k < all_.triangles.size(); ++k)
-    {
-      reaches_[this->indexOf(triangleGroups_[k])].extend(reachOf(*all_.triangles[k]));
-    }
-  }
-
-  void addPlace(const BlendPieces::Place& place, const Box3& reach)
-  {
-    const std::size_t count = groups_.size();
-    const std::size_t begin = distances_.size();
-    // Far from a group, so far that a place half there and half here does not blend with it.
-    distances_.resize(begin + count, 2.0 * share_.end());
-    for (const GroupDistance& near : place.distances)
-    {
-      const std::size_t index = this->indexOf(near.group);
-      if (index < count)
+      for (const GroupDistance& other : this->farthest(k))
       {
-        distances_[begin + index] = near.distance;
+        const std::int32_t number = numbers_.find(other.group);
+        if (number >= 0)
+        {
+          double& most =
+            selection_.farthest[count * units_[k] + units_[static_cast<std::size_t>(number)]];
+          most = std::max(most, other.distance);
+        }
       }
     }
-    // Where one of both fields is always 0 the distance does not matter.
-    for (std::size_t group = 0; group < count; ++group)
+    std::vector<std::size_t> groups(count);
+    for (std::size_t k = 0; k < units_.size(); ++k)
     {
-      if (!reach.intersects(reaches_[group]))
+      groups[units_[k]] = k;
+    }
+    for (std::size_t a = selection_.hasRest ? 1 : 0; a < count; ++a)
+    {
+      for (std::size_t b = a + 1; b < count; ++b)
       {
-        distances_[begin + group] = 0.0;
+        if (std::max(selection_.farthest[count * a + b], selection_.farthest[count * b + a]) >
+          begin_)
+        {
+          selection_.apart.push_back(
+            { a, b, field_.areNeighbours(numbers_.group(groups[a]), numbers_.group(groups[b])) });
+        }
       }
     }
-    const std::size_t own = this->indexOf(place.group);
-    pieceGroups_.push_back(own);
-    if (own < count)
-    {
-      distances_[begin + own] = 0.0;
-      for (std::size_t group = 0; group < count; ++group)
-      {
-        double& most = most_[count * group + own];
-        most = std::max(most, distances_[begin + group]);
-      }
-    }
-  }
-
-  // Among the groups in reach; their number for another.
-  std::size_t indexOf(std::int32_t group) const
-  {
-    const auto found = std::lower_bound(groups_.begin(), groups_.end(), group);
-    return found != groups_.end() && *found == group
-      ? static_cast<std::size_t>(found - groups_.begin())
-      : groups_.size();
-  }
-
-  // As [SUB]: a place is one on element i alone, and i counts in full.
-  Groups placesOf(const Groups& set) const { return this->isPaper() ? Groups{ set.front() } : set; }
-
-  bool countsInFull(std::int32_t group, const Groups& places) const
-  {
-    if (this->isPaper())
-    {
-      return group == places.front();
-    }
-    const double* most = most_.data() + groups_.size() * this->indexOf(group);
-    return std::all_of(places.begin(), places.end(),
-      [&](std::int32_t place) { return most[this->indexOf(place)] <= share_.begin(); });
-  }
-
-  bool isPlain(const Groups& set) const
-  {
-    const Groups places = this->placesOf(set);
-    return std::all_of(set.begin(), set.end(),
-      [&](std::int32_t group) { return this->countsInFull(group, places); });
-  }
-
-  BlendSelection::Cluster cluster(const Groups& set) const
-  {
-    const Groups places = this->placesOf(set);
-    std::vector<std::size_t> pieces;
-    BlendSelection::Cluster result;
-    Groups plain;
-    for (const std::int32_t group : set)
-    {
-      if (this->countsInFull(group, places))
-      {
-        plain.push_back(group);
-        continue;
-      }
-      if (pieces.empty())
-      {
-        pieces = this->collectPieces(places, result.pieces);
-      }
-      result.terms.push_back(this->term(group, pieces));
-    }
-    std::sort(plain.begin(), plain.end());
-    this->collect(plain, result.plain);
-    return result;
-  }
-
-  BlendSelection::Term term(std::int32_t group, const std::vector<std::size_t>& pieces) const
-  {
-    const std::size_t index = this->indexOf(group);
-    BlendSelection::Term term;
-    term.distances.reserve(pieces.size());
-    for (const std::size_t piece : pieces)
-    {
-      term.distances.push_back(distances_[groups_.size() * piece + index]);
-    }
-    const auto [least, largest] = std::minmax_element(term.distances.begin(), term.distances.end());
-    term.span = pieces.empty() ? 0.0 : *largest - *least;
-    this->collect({ group }, term.own);
-    return term;
-  }
-
-  void collect(const Groups& groups, ElementSelection& selection) const
-  {
-    const auto wanted = [&](std::int32_t group)
-    { return std::binary_search(groups.begin(), groups.end(), group); };
-    for (std::size_t k = 0; k < segmentGroups_.size(); ++k)
-    {
-      if (wanted(segmentGroups_[k]))
-      {
-        selection.segments.push_back(all_.segments[k]);
-      }
-    }
-    for (std::size_t k = 0; k < triangleGroups_.size(); ++k)
-    {
-      if (wanted(triangleGroups_[k]))
-      {
-        selection.triangles.push_back(all_.triangles[k]);
-      }
-    }
-  }
-
-  // Those of the groups: their places among all in reach.
-  std::vector<std::size_t> collectPieces(const Groups& groups, ElementSelection& selection) const
-  {
-    std::vector<char> wanted(groups_.size() + 1, 0);
-    for (const std::int32_t group : groups)
-    {
-      wanted[this->indexOf(group)] = 1;
-    }
-    wanted[groups_.size()] = 0;
-    std::vector<std::size_t> pieces;
-    const std::size_t segments = pieces_.segments.size();
-    for (std::size_t k = 0; k < pieceGroups_.size(); ++k)
-    {
-      if (!wanted[pieceGroups_[k]])
-      {
-        continue;
-      }
-      pieces.push_back(k);
-      if (k < segments)
-      {
-        selection.segments.push_back(pieces_.segments[k]);
-      }
-      else
-      {
-        selection.triangles.push_back(pieces_.triangles[k - segments]);
-      }
-    }
-    return pieces;
   }
 
   const BlendGroups& field_;
-  BlendShare share_;
-  const ElementSelection& all_;
-  Groups segmentGroups_; // per element of all_
-  Groups triangleGroups_;
-  Groups groups_; // those in reach
-  ElementSelection pieces_;
-  std::vector<std::size_t> pieceGroups_; // places in groups_: of segments, then triangles
-  std::vector<Box3> reaches_;            // per group in reach
-  std::vector<double> distances_;        // per piece and group in reach
-  std::vector<double> most_;             // per group and group of the pieces
+  double begin_;
+  BlendSelection& selection_;
+  GroupNumbers numbers_;
+  std::vector<std::size_t> segmentGroups_; // numbers, per element of the selection
+  std::vector<std::size_t> triangleGroups_;
+  std::vector<std::size_t> units_; // per number
 };
 
 } // namespace
 
-std::vector<BlendSelection::Cluster> blendClusters(
-  const BlendGroups& groups, const ElementSelection& all, const Box3& box)
+void selectBlends(const BlendGroups& groups, BlendSelection& selection)
 {
-  return Finder(groups, all).clusters(box);
+  selection.isControlled = false;
+  selection.units.clear();
+  selection.apart.clear();
+  if (selection.all.empty())
+  {
+    return;
+  }
+  if (groups.isLocal())
+  {
+    Finder(groups, selection).find();
+  }
+  else
+  {
+    selection.isControlled = true;
+  }
 }
 
 } // namespace hybridtree

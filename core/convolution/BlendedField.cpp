@@ -3,10 +3,11 @@
 
 #include "core/base/Scratch.h"
 #include "core/convolution/BlendSelector.h"
+#include "core/convolution/BlendSums.h"
 
 #include <algorithm>
 #include <array>
-#include <functional>
+#include <limits>
 #include <numeric>
 
 namespace hybridtree
@@ -85,12 +86,21 @@ private:
   ScratchVectors gradient_;
 };
 
+ElementSpans spansOf(const SegmentElement* const* segment)
+{
+  return { { segment, 1 }, {} };
+}
+
+ElementSpans spansOf(const TriangleElement* const* triangle)
+{
+  return { {}, { triangle, 1 } };
+}
+
 } // namespace
 
 BlendedField::BlendedField(
   const ConvolutionKernel& kernel, const BlendingControl& control, const GroupedElements& elements)
   : control_(control)
-  , share_(control)
   , whole_(kernel, segmentsOf(elements), trianglesOf(elements))
   , partSize_(std::accumulate(elements.reaches.begin(), elements.reaches.end(), 0.0) /
       static_cast<double>(std::max<std::size_t>(1, elements.reaches.size())))
@@ -106,158 +116,18 @@ BlendedField::BlendedField(
   }
 }
 
+BlendGroups BlendedField::groups() const
+{
+  return { control_, whole_, segmentGroups_, triangleGroups_, *pieces_, places_ };
+}
+
 void BlendedField::select(const Box3& box, BlendSelection& selection) const
 {
   whole_.select(box, selection.all);
-  selection.clusters.clear();
-  if (pieces_ && !selection.empty())
+  selection.isControlled = false;
+  if (pieces_)
   {
-    selection.clusters = blendClusters(
-      { control_, whole_, segmentGroups_, triangleGroups_, *pieces_, places_ }, selection.all, box);
-  }
-}
-
-// The sums over the pieces of a cluster at a part of the points: of their fields, and of these
-// times the distances from the groups of its terms; all with gradients or without. Each piece is
-// integrated once.
-class BlendedField::PlaceSums
-{
-public:
-  PlaceSums(const BlendedField& field, const BlendSelection::Cluster& cluster, PointBatch points,
-    bool withGradient)
-    : kernel_(field.kernel())
-    , kernels_(convolutionKernels(kernel_.kind))
-    , points_(points)
-    , withGradient_(withGradient)
-    , rows_(withGradient ? 4 : 1)
-    , row_(points.size * rows_)
-    , sums_(points.size * rows_ * (cluster.terms.size() + 1))
-  {
-    std::fill_n(sums_.data(), sums_.size(), 0.0);
-    std::size_t piece = 0;
-    for (const SegmentElement* segment : cluster.pieces.segments)
-    {
-      this->integrate(segment, kernels_.addSegments, kernels_.addSegmentsWithGradient);
-      this->addRow(cluster, piece++);
-    }
-    for (const TriangleElement* triangle : cluster.pieces.triangles)
-    {
-      this->integrate(triangle, kernels_.addTriangles, kernels_.addTrianglesWithGradient);
-      this->addRow(cluster, piece++);
-    }
-  }
-
-  ///@{
-  /// Sum 0 is that of the fields, sum 1 + t that of term t.
-  double value(std::size_t sum, std::size_t k) const { return this->at(sum, 0)[k]; }
-  Vec3 gradient(std::size_t sum, std::size_t k) const
-  {
-    return { this->at(sum, 1)[k], this->at(sum, 2)[k], this->at(sum, 3)[k] };
-  }
-  ///@}
-
-private:
-  const double* at(std::size_t sum, std::size_t row) const
-  {
-    return sums_.data() + points_.size * (rows_ * sum + row);
-  }
-
-  template <class Element, class Add, class AddWithGradient>
-  void integrate(const Element* element, Add add, AddWithGradient addWithGradient)
-  {
-    double* row = row_.data();
-    const std::size_t size = points_.size;
-    std::fill_n(row, size * rows_, 0.0);
-    if (withGradient_)
-    {
-      addWithGradient(
-        { &element, 1 }, kernel_, points_, row, { row + size, row + 2 * size, row + 3 * size });
-    }
-    else
-    {
-      add({ &element, 1 }, kernel_, points_, row);
-    }
-  }
-
-  void addRow(const BlendSelection::Cluster& cluster, std::size_t piece)
-  {
-    const std::size_t count = points_.size * rows_;
-    for (std::size_t sum = 0; sum <= cluster.terms.size(); ++sum)
-    {
-      const double weight = sum == 0 ? 1.0 : cluster.terms[sum - 1].distances[piece];
-      double* to = sums_.data() + count * sum;
-      for (std::size_t k = 0; k < count; ++k)
-      {
-        to[k] += weight * row_[k];
-      }
-    }
-  }
-
-  const ConvolutionKernel& kernel_;
-  const ConvolutionKernels& kernels_;
-  PointBatch points_;
-  bool withGradient_;
-  std::size_t rows_;
-  ScratchArray row_;
-  ScratchArray sums_;
-};
-
-void BlendedField::clusterField(
-  const BlendSelection::Cluster& cluster, PointBatch points, double* value) const
-{
-  std::fill_n(value, points.size, 0.0);
-  whole_.addField(cluster.plain, points, value);
-  for (std::size_t begin = 0; begin < points.size && !cluster.terms.empty(); begin += kPart)
-  {
-    const PointBatch part = points.slice(begin, std::min(kPart, points.size - begin));
-    const PlaceSums sums(*this, cluster, part, false);
-    ScratchArray own(part.size);
-    for (std::size_t t = 0; t < cluster.terms.size(); ++t)
-    {
-      std::fill_n(own.data(), part.size, 0.0);
-      whole_.addField(cluster.terms[t].own, part, own.data());
-      for (std::size_t k = 0; k < part.size; ++k)
-      {
-        const double here = sums.value(0, k);
-        if (here > 0.0)
-        {
-          value[begin + k] += share_(sums.value(1 + t, k) / here) * this->counted(own[k], here);
-        }
-      }
-    }
-  }
-}
-
-void BlendedField::clusterField(const BlendSelection::Cluster& cluster, PointBatch points,
-  double* value, VectorBatch gradient) const
-{
-  clear(points.size, value, gradient);
-  whole_.addFieldAndGradient(cluster.plain, points, value, gradient);
-  for (std::size_t begin = 0; begin < points.size && !cluster.terms.empty(); begin += kPart)
-  {
-    const PointBatch part = points.slice(begin, std::min(kPart, points.size - begin));
-    const PlaceSums sums(*this, cluster, part, true);
-    for (std::size_t t = 0; t < cluster.terms.size(); ++t)
-    {
-      Samples own(part.size);
-      whole_.addFieldAndGradient(cluster.terms[t].own, part, own.value(), own.gradient());
-      for (std::size_t k = 0; k < part.size; ++k)
-      {
-        const double here = sums.value(0, k);
-        if (!(here > 0.0))
-        {
-          continue;
-        }
-        const double distance = sums.value(1 + t, k) / here;
-        const Vec3 steps = (sums.gradient(1 + t, k) - distance * sums.gradient(0, k)) / here;
-        const double counted = this->counted(own.value(k), here);
-        const Vec3 slope = counted < own.value(k) ? sums.gradient(0, k) : own.gradient(k);
-        value[begin + k] += share_(distance) * counted;
-        gradient.set(begin + k,
-          gradient[begin + k] + share_(distance) * slope +
-            counted * share_.slope(distance) * steps);
-      }
-    }
+    selectBlends(this->groups(), selection);
   }
 }
 
@@ -324,27 +194,24 @@ void BlendedField::addField(const BlendSelection* selection, PointBatch points, 
     return;
   }
   const bool fades = this->kernel().kind == KernelKind::Cauchy;
-  if (selection->clusters.empty() && !fades)
+  if (!selection->isControlled && !fades)
   {
     whole_.addField(selection->all, points, sum);
     return;
   }
-  ScratchArray best(points.size);
-  std::fill_n(best.data(), points.size, 0.0);
-  if (selection->clusters.empty())
-  {
-    whole_.addField(selection->all, points, best.data());
-  }
   ScratchArray value(points.size);
-  for (const BlendSelection::Cluster& cluster : selection->clusters)
+  if (!selection->isControlled)
   {
-    this->clusterField(cluster, points, value.data());
-    std::transform(best.data(), best.data() + points.size, value.data(), best.data(),
-      [](double a, double b) { return std::max(a, b); });
+    std::fill_n(value.data(), points.size, 0.0);
+    whole_.addField(selection->all, points, value.data());
+  }
+  else
+  {
+    sumBlends(this->groups(), *selection, points, value.data(), nullptr);
   }
   for (std::size_t k = 0; k < points.size; ++k)
   {
-    sum[k] += fades ? faded(best[k]) : best[k];
+    sum[k] += fades ? faded(value[k]) : value[k];
   }
 }
 
@@ -367,79 +234,122 @@ void BlendedField::addFieldAndGradient(
     return;
   }
   const bool fades = this->kernel().kind == KernelKind::Cauchy;
-  if (selection->clusters.empty() && !fades)
+  if (!selection->isControlled && !fades)
   {
     whole_.addFieldAndGradient(selection->all, points, sum, gradientSum);
     return;
   }
-  Samples best(points.size);
-  if (selection->clusters.empty())
-  {
-    whole_.addFieldAndGradient(selection->all, points, best.value(), best.gradient());
-  }
   Samples own(points.size);
-  for (const BlendSelection::Cluster& cluster : selection->clusters)
+  const VectorBatch gradient = own.gradient();
+  if (!selection->isControlled)
   {
-    this->clusterField(cluster, points, own.value(), own.gradient());
-    for (std::size_t k = 0; k < points.size; ++k)
-    {
-      if (own.value(k) > best.value(k))
-      {
-        best.value()[k] = own.value(k);
-        best.gradient().set(k, own.gradient(k));
-      }
-    }
+    whole_.addFieldAndGradient(selection->all, points, own.value(), gradient);
+  }
+  else
+  {
+    sumBlends(this->groups(), *selection, points, own.value(), &gradient);
   }
   for (std::size_t k = 0; k < points.size; ++k)
   {
-    const double value = best.value(k);
+    const double value = own.value(k);
     sum[k] += fades ? faded(value) : value;
-    gradientSum.set(k, gradientSum[k] + (fades ? fadedSlope(value) : 1.0) * best.gradient(k));
+    gradientSum.set(k, gradientSum[k] + (fades ? fadedSlope(value) : 1.0) * gradient[k]);
   }
 }
 
-Interval BlendedField::clusterRange(const BlendSelection::Cluster& cluster, const Box3& box) const
+// Of the length of the gradient; 0 where the field is the sum. See BlendMixture.cpp for the
+// gradient: the s_j (d(c, j) - D_j) are at most alpha' f_j / F times the largest distance, and the
+// f_j add up to F.
+double BlendedField::mixedSlope(const BlendSelection& selection, const Box3& box) const
 {
-  if (cluster.terms.empty())
+  if (control_.kind == BlendingKind::Paper)
   {
-    return whole_.range(cluster.plain, box);
+    return this->paperSlope(selection, box);
   }
-  FieldBounds bounds;
-  whole_.addBounds(cluster.plain, box, bounds);
-  FieldBounds places;
-  pieces_->addBounds(cluster.pieces, box, places);
-  // sum of f_j |grad alpha_j| <= sum of f_j / F |sum of (d_c - D_j) grad f_c|, F = sum of f_c. Of
-  // neighbours the f_j are parts of F; as [SUB], each alone is no larger.
-  const bool paper = control_.kind == BlendingKind::Paper;
-  double shift = 0.0;
-  for (const BlendSelection::Term& term : cluster.terms)
+  const double farthest = BlendShare(control_).farthest();
+  if (selection.units.empty())
   {
-    whole_.addBounds(term.own, box, bounds);
-    const double own = BlendShare::kSteepest * term.span;
-    shift = paper ? shift + own + 1.0 : std::max(shift, own);
+    FieldBounds all;
+    whole_.addBounds(selection.all, box, all);
+    return (1.0 + BlendShare::kSteepest * farthest) * all.slope;
   }
-  bounds.slope += shift * places.slope;
+  std::vector<FieldBounds> bounds(selection.units.size());
+  double slope = 0.0;
+  for (std::size_t unit = 0; unit < bounds.size(); ++unit)
+  {
+    whole_.addBounds(selection.elementsOf(unit), box, bounds[unit]);
+    slope += bounds[unit].slope;
+  }
+  double distance = 0.0;
+  for (const BlendSelection::Pair& pair : selection.apart)
+  {
+    if (bounds[pair.a].value > 0.0 && bounds[pair.b].value > 0.0)
+    {
+      const auto between = [&](std::size_t a, std::size_t b)
+      { return selection.farthest[a * bounds.size() + b]; };
+      distance = std::max({ distance, between(pair.a, pair.b), between(pair.b, pair.a) });
+    }
+  }
+  return distance > 0.0 ? (1.0 + BlendShare::kSteepest * distance) * slope : 0.0;
+}
+
+// Distances are at most 1, and a neighbour's field counts no more than that of i.
+double BlendedField::paperSlope(const BlendSelection& selection, const Box3& box) const
+{
+  GroupNumbers numbers(places_.neighbours.size());
+  std::vector<FieldBounds> bounds;
+  const auto add = [&](const auto* element, std::int32_t group)
+  {
+    bounds.resize(std::max(bounds.size(), numbers.add(group) + 1));
+    whole_.addBounds(spansOf(&element), box, bounds[numbers.add(group)]);
+  };
+  for (const SegmentElement* segment : selection.all.segments)
+  {
+    add(segment, segmentGroups_[whole_.index(segment)]);
+  }
+  for (const TriangleElement* triangle : selection.all.triangles)
+  {
+    add(triangle, triangleGroups_[whole_.index(triangle)]);
+  }
+  double most = 0.0;
+  for (std::size_t number = 0; number < bounds.size(); ++number)
+  {
+    double slope = bounds[number].slope;
+    for (const std::int32_t other :
+      places_.neighbours[static_cast<std::size_t>(numbers.group(number))])
+    {
+      if (numbers.find(other) >= 0)
+      {
+        const FieldBounds& of = bounds[static_cast<std::size_t>(numbers.find(other))];
+        slope +=
+          std::max(bounds[number].slope, of.slope) + BlendShare::kSteepest * bounds[number].slope;
+      }
+    }
+    most = std::max(most, slope);
+  }
+  return most;
+}
+
+Interval BlendedField::mixedRange(const BlendSelection& selection, const Box3& box) const
+{
+  const Interval sum = whole_.range(selection.all, box);
+  const double slope = sum.max > 0.0 ? this->mixedSlope(selection, box) : 0.0;
+  if (slope == 0.0)
+  {
+    return sum;
+  }
   const Vec3 p = box.center();
   double center;
-  this->clusterField(cluster, { &p.x(), &p.y(), &p.z(), 1 }, &center);
-  const double most = 0.5 * bounds.slope * box.diagonal().norm();
-  const double rounding = 1e-13 * (1.0 + bounds.value);
-  return { std::max(0.0, center - most - rounding),
-    std::min(bounds.value, center + most) + rounding };
+  sumBlends(this->groups(), selection, { &p.x(), &p.y(), &p.z(), 1 }, &center, nullptr);
+  const double most = 0.5 * slope * box.diagonal().norm();
+  const double rounding = 1e-13 * (1.0 + sum.max);
+  return { std::max(0.0, center - most - rounding), std::min(sum.max, center + most + rounding) };
 }
 
 Interval BlendedField::range(const BlendSelection& selection, const Box3& box) const
 {
-  Interval range;
-  if (selection.clusters.empty())
-  {
-    range = whole_.range(selection.all, box);
-  }
-  for (const BlendSelection::Cluster& cluster : selection.clusters)
-  {
-    const Interval own = this->clusterRange(cluster, box);
-    range = { std::max(range.min, own.min), std::max(range.max, own.max) };
-  }
+  const Interval range =
+    selection.isControlled ? this->mixedRange(selection, box) : whole_.range(selection.all, box);
   return this->kernel().kind == KernelKind::Cauchy ? Interval{ faded(range.min), faded(range.max) }
                                                    : range;
 }

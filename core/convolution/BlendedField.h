@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "core/convolution/BlendPieces.h"
+#include "core/convolution/BlendGroups.h"
 #include "core/convolution/BlendSelection.h"
 #include "core/convolution/GroupedElements.h"
 
@@ -52,24 +52,15 @@ public:
   Interval range(const BlendSelection& selection, const Box3& box) const;
 
 private:
-  class PlaceSums;
-
   template <typename Body>
   void forCompactParts(PointBatch points, Body&& body) const;
 
-  void clusterField(const BlendSelection::Cluster& cluster, PointBatch points, double* value) const;
-  void clusterField(const BlendSelection::Cluster& cluster, PointBatch points, double* value,
-    VectorBatch gradient) const;
-  // [SUB]'s sums are those of the largest element alone: with the others cut to its own field they
-  // are continuous and agree with [SUB] where it is the largest.
-  double counted(double field, double here) const
-  {
-    return control_.kind == BlendingKind::Paper && here < field ? here : field;
-  }
-  Interval clusterRange(const BlendSelection::Cluster& cluster, const Box3& box) const;
+  BlendGroups groups() const;
+  Interval mixedRange(const BlendSelection& selection, const Box3& box) const;
+  double mixedSlope(const BlendSelection& selection, const Box3& box) const;
+  double paperSlope(const BlendSelection& selection, const Box3& box) const;
 
   BlendingControl control_;
-  BlendShare share_;
   ConvolutionField whole_;
   double partSize_; ///< how far apart points may be that are asked for together
   std::vector<std::int32_t> segmentGroups_;

@@ -38,6 +38,9 @@ public:
 
   double begin() const { return begin_; } ///< last distance with the share 1
   double end() const { return end_; }     ///< first with the share 0
+  /// What counts as the distance of what is farther than end(): so far that a place half there and
+  /// half here does not blend with it.
+  double farthest() const { return 2.0 * end_; }
 
   double operator()(double distance) const
   {

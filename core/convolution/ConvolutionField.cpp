@@ -60,12 +60,6 @@ struct Ball
   }
 };
 
-template <class Element>
-ElementSpan<Element> spanOf(const std::vector<const Element*>& elements)
-{
-  return { elements.data(), elements.size() };
-}
-
 } // namespace
 
 ConvolutionField::ConvolutionField(const ConvolutionKernel& kernel,
@@ -163,24 +157,35 @@ std::size_t ConvolutionField::index(const TriangleElement* triangle) const
   return triangleTree_.order()[static_cast<std::size_t>(triangle - triangles_.data())];
 }
 
-void ConvolutionField::addField(
-  const ElementSelection& selection, PointBatch points, double* sum) const
+void ConvolutionField::addField(const ElementSpans& elements, PointBatch points, double* sum) const
 {
   const ConvolutionKernels& kernels = convolutionKernels(kernel_.kind);
-  kernels.addSegments(spanOf(selection.segments), kernel_, points, sum);
-  kernels.addTriangles(spanOf(selection.triangles), kernel_, points, sum);
+  if (elements.segments.count > 0)
+  {
+    kernels.addSegments(elements.segments, kernel_, points, sum);
+  }
+  if (elements.triangles.count > 0)
+  {
+    kernels.addTriangles(elements.triangles, kernel_, points, sum);
+  }
 }
 
 void ConvolutionField::addFieldAndGradient(
-  const ElementSelection& selection, PointBatch points, double* sum, VectorBatch gradientSum) const
+  const ElementSpans& elements, PointBatch points, double* sum, VectorBatch gradientSum) const
 {
   const ConvolutionKernels& kernels = convolutionKernels(kernel_.kind);
-  kernels.addSegmentsWithGradient(spanOf(selection.segments), kernel_, points, sum, gradientSum);
-  kernels.addTrianglesWithGradient(spanOf(selection.triangles), kernel_, points, sum, gradientSum);
+  if (elements.segments.count > 0)
+  {
+    kernels.addSegmentsWithGradient(elements.segments, kernel_, points, sum, gradientSum);
+  }
+  if (elements.triangles.count > 0)
+  {
+    kernels.addTrianglesWithGradient(elements.triangles, kernel_, points, sum, gradientSum);
+  }
 }
 
 void ConvolutionField::addBounds(
-  const ElementSelection& selection, const Box3& box, FieldBounds& bounds) const
+  const ElementSpans& elements, const Box3& box, FieldBounds& bounds) const
 {
   const Ball ball(box);
   const auto add = [&](const auto* element)
@@ -188,8 +193,8 @@ void ConvolutionField::addBounds(
     hybridtree::addBounds(
       *element, kernel_, std::max(0.0, distanceTo(*element, ball.center) - ball.radius), bounds);
   };
-  std::for_each(selection.segments.begin(), selection.segments.end(), add);
-  std::for_each(selection.triangles.begin(), selection.triangles.end(), add);
+  std::for_each_n(elements.segments.elements, elements.segments.count, add);
+  std::for_each_n(elements.triangles.elements, elements.triangles.count, add);
 }
 
 Interval ConvolutionField::range(const ElementSelection& selection, const Box3& box) const

@@ -10,6 +10,13 @@
 namespace hybridtree
 {
 
+/// Elements that are kept elsewhere.
+struct ElementSpans
+{
+  ElementSpan<SegmentElement> segments;
+  ElementSpan<TriangleElement> triangles;
+};
+
 /// Elements that may reach some place.
 struct ElementSelection
 {
@@ -17,6 +24,10 @@ struct ElementSelection
   std::vector<const TriangleElement*> triangles;
 
   bool empty() const { return segments.empty() && triangles.empty(); }
+  operator ElementSpans() const
+  {
+    return { { segments.data(), segments.size() }, { triangles.data(), triangles.size() } };
+  }
 };
 
 /// The sum of the fields of segments and triangles ([SUB] 3), in closed form, with a hierarchy over
@@ -44,12 +55,12 @@ public:
   std::size_t index(const TriangleElement* triangle) const;
   ///@}
 
-  void addField(const ElementSelection& selection, PointBatch points, double* sum) const;
-  void addFieldAndGradient(const ElementSelection& selection, PointBatch points, double* sum,
-    VectorBatch gradientSum) const;
+  void addField(const ElementSpans& elements, PointBatch points, double* sum) const;
+  void addFieldAndGradient(
+    const ElementSpans& elements, PointBatch points, double* sum, VectorBatch gradientSum) const;
 
   /// Adds bounds that hold in the whole box.
-  void addBounds(const ElementSelection& selection, const Box3& box, FieldBounds& bounds) const;
+  void addBounds(const ElementSpans& elements, const Box3& box, FieldBounds& bounds) const;
 
   /// Bounds of the field in a box. \pre the selection is that of the box or of a larger one.
   Interval range(const ElementSelection& selection, const Box3& box) const;

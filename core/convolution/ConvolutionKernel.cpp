@@ -19,6 +19,17 @@ double squaredRadius(const ConvolutionKernel& kernel)
   return 1.0 / (kernel.influenceRatio * kernel.influenceRatio);
 }
 
+// std::pow() takes longer than what it is for.
+double power(double base, int exponent)
+{
+  double result = base;
+  for (int k = 1; k < exponent; ++k)
+  {
+    result *= base;
+  }
+  return result;
+}
+
 } // namespace
 
 void validate(const ConvolutionKernel& kernel)
@@ -60,10 +71,11 @@ double segmentAmplitude(const ConvolutionKernel& kernel)
 {
   if (kernel.kind == KernelKind::Cauchy)
   {
-    return kThreshold * 4.0 * std::pow(1.0 + 4.0 * squaredRadius(kernel), 1.5) / kPi;
+    const double u = 1.0 + 4.0 * squaredRadius(kernel);
+    return kThreshold * 4.0 * u * std::sqrt(u) / kPi;
   }
   const double c = 1.0 - squaredRadius(kernel);
-  return kThreshold / (std::pow(c, kernel.exponent + 0.5) * bellIntegral(kernel.exponent));
+  return kThreshold / (power(c, kernel.exponent) * std::sqrt(c) * bellIntegral(kernel.exponent));
 }
 
 double triangleAmplitude(const ConvolutionKernel& kernel)
@@ -73,7 +85,7 @@ double triangleAmplitude(const ConvolutionKernel& kernel)
     return kThreshold * 4.0 * (1.0 + 4.0 * squaredRadius(kernel)) / kPi;
   }
   const double c = 1.0 - squaredRadius(kernel);
-  return kThreshold * (kernel.exponent + 1) / (kPi * std::pow(c, kernel.exponent + 1));
+  return kThreshold * (kernel.exponent + 1) / (kPi * power(c, kernel.exponent + 1));
 }
 
 } // namespace hybridtree

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/convolution/BlendGroups.h"
+
+#include <algorithm>
+
+namespace hybridtree
+{
+namespace
+{
+
+// Kept between queries: there may be far more groups than one query meets.
+thread_local std::vector<std::int32_t> numbers;
+thread_local std::vector<std::int32_t> met;
+
+} // namespace
+
+bool BlendGroups::areNeighbours(std::int32_t a, std::int32_t b) const
+{
+  const std::vector<std::int32_t>& others = places.neighbours[static_cast<std::size_t>(a)];
+  return std::binary_search(others.begin(), others.end(), b);
+}
+
+GroupNumbers::GroupNumbers(std::size_t groups) : numbers_(numbers), groups_(met)
+{
+  groups_.clear();
+  if (numbers_.size() < groups)
+  {
+    numbers_.resize(groups, -1);
+  }
+}
+
+GroupNumbers::~GroupNumbers()
+{
+  for (const std::int32_t group : groups_)
+  {
+    numbers_[static_cast<std::size_t>(group)] = -1;
+  }
+}
+
+std::size_t GroupNumbers::add(std::int32_t group)
+{
+  std::int32_t& number = numbers_[static_cast<std::size_t>(group)];
+  if (number < 0)
+  {
+    number = static_cast<std::int32_t>(groups_.size());
+    groups_.push_back(group);
+  }
+  return static_cast<std::size_t>(number);
+}
+
+std::int32_t GroupNumbers::find(std::int32_t group) const
+{
+  return numbers_[static_cast<std::size_t>(group)];
+}
+
+} // namespace hybridtree

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "core/convolution/BlendPieces.h"
+#include "core/convolution/ConvolutionField.h"
+
+namespace hybridtree
+{
+
+/// A skeleton in groups, as BlendedField keeps it.
+struct BlendGroups
+{
+  const BlendingControl& control;
+  const ConvolutionField& whole;
+  const std::vector<std::int32_t>& segmentGroups; ///< per element of `whole`, as it was given them
+  const std::vector<std::int32_t>& triangleGroups;
+  const ConvolutionField& pieces;
+  const BlendPieces& places; ///< of the pieces, as that field was given them
+
+  std::size_t size() const { return places.neighbours.size(); }
+  bool areNeighbours(std::int32_t a, std::int32_t b) const;
+  /// Whether fields end, and groups that do not reach a point have no say there.
+  bool isLocal() const
+  {
+    return whole.kernel().kind == KernelKind::Compact && control.kind != BlendingKind::Paper;
+  }
+};
+
+/// Numbers for some of many groups, in the order in which they are met. One at a time in a thread.
+class GroupNumbers
+{
+public:
+  explicit GroupNumbers(std::size_t groups);
+  ~GroupNumbers();
+  GroupNumbers(const GroupNumbers&) = delete;
+  GroupNumbers& operator=(const GroupNumbers&) = delete;
+
+  std::size_t size() const { return groups_.size(); }
+  /// The number of the group, a new one if it has none.
+  std::size_t add(std::int32_t group);
+  /// -1 for none.
+  std::int32_t find(std::int32_t group) const;
+  std::int32_t group(std::size_t number) const { return groups_[number]; }
+
+private:
+  std::vector<std::int32_t>& numbers_; // per group; -1 for none
+  std::vector<std::int32_t>& groups_;
+};
+
+} // namespace hybridtree

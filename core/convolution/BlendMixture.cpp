@@ -1,0 +1,376 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/convolution/BlendMixture.h"
+
+#include "core/convolution/BlendSets.h"
+
+#include <algorithm>
+#include <array>
+
+namespace hybridtree
+{
+namespace
+{
+
+constexpr std::size_t kMostPoints = 64;       // handled together
+constexpr std::size_t kMostNumbers = 1 << 18; // in the largest array, to stay in the cache
+
+// The largest of the sums G_i at some points.
+class Mixture
+{
+public:
+  Mixture(PieceFields& fields, const std::vector<double>& bounds)
+    : fields_(fields)
+    , share_(fields.pieces().groups().control)
+    , isPaper_(fields.pieces().groups().control.kind == BlendingKind::Paper)
+    , sets_(fields.pieces(), bounds)
+    , points_(fields.points().size)
+    , best_(points_)
+    , total_(points_)
+    , here_(points_)
+    , distance_(points_)
+  {
+    std::fill_n(best_.data(), points_, 0.0);
+    for (std::size_t set = 0; set < sets_.size() && this->leastBest() < sets_[set].bound; ++set)
+    {
+      if (this->mayBeBest(sets_[set]))
+      {
+        this->tryOut(set);
+      }
+    }
+  }
+
+  double best(std::size_t k) const { return best_.data()[k]; }
+
+  /// Of the largest sums at some of the points.
+  void findGradients(const std::vector<std::size_t>& some, const VectorBatch& gradient);
+
+private:
+  class Weights;
+
+  void clear(ScratchArray& row) const { std::fill_n(row.data(), points_, 0.0); }
+  void add(const double* from, ScratchArray& row) const
+  {
+    double* to = row.data();
+    for (std::size_t k = 0; k < points_; ++k)
+    {
+      to[k] += from[k];
+    }
+  }
+
+  double leastBest() const { return *std::min_element(best_.data(), best_.data() + points_); }
+
+  // Shares are at most 1.
+  bool mayBeBest(const BlendSets::Set& set)
+  {
+    this->clear(total_);
+    for (const std::size_t* member = set.begin; member != set.end; ++member)
+    {
+      this->add(fields_.field(*member), total_);
+    }
+    for (std::size_t k = 0; k < points_; ++k)
+    {
+      if (total_[k] > best_[k])
+      {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  // The members on which a set's sum says where a point is. As [SUB]: i alone.
+  BlendSets::Set placesOf(BlendSets::Set set) const
+  {
+    if (isPaper_)
+    {
+      set.begin = std::find(set.begin, set.end, set.center);
+      set.end = set.begin + 1;
+    }
+    return set;
+  }
+
+  void sumPlaces(const BlendSets::Set& places)
+  {
+    this->clear(here_);
+    for (const std::size_t* place = places.begin; place != places.end; ++place)
+    {
+      this->add(fields_.field(*place), here_);
+    }
+  }
+
+  // D of one member.
+  void findDistance(const BlendSets::Set& places, std::size_t member)
+  {
+    this->clear(distance_);
+    for (const std::size_t* place = places.begin; place != places.end; ++place)
+    {
+      if (*place != member)
+      {
+        this->add(fields_.far(*place, member), distance_);
+      }
+    }
+    for (std::size_t k = 0; k < points_; ++k)
+    {
+      distance_[k] = here_[k] > 0.0 ? distance_[k] / here_[k] : share_.farthest();
+    }
+  }
+
+  // [SUB]'s sums are those of the largest element alone: with the others cut to its own field they
+  // are continuous and agree with [SUB] where it is the largest.
+  bool isCut(double own, double here) const { return isPaper_ && here < own; }
+
+  void tryOut(std::size_t set)
+  {
+    const BlendSets::Set of = sets_[set];
+    const BlendSets::Set places = this->placesOf(of);
+    this->sumPlaces(places);
+    this->clear(total_);
+    for (const std::size_t* member = of.begin; member != of.end; ++member)
+    {
+      const double* own = fields_.field(*member);
+      this->findDistance(places, *member);
+      for (std::size_t k = 0; k < points_; ++k)
+      {
+        total_[k] += share_(distance_[k]) * (this->isCut(own[k], here_[k]) ? here_[k] : own[k]);
+      }
+    }
+    for (std::size_t k = 0; k < points_; ++k)
+    {
+      if (total_[k] > best_[k])
+      {
+        best_[k] = total_[k];
+        winners_[k] = set;
+      }
+    }
+  }
+
+  PieceFields& fields_;
+  BlendShare share_;
+  bool isPaper_;
+  BlendSets sets_;
+  std::size_t points_;
+  ScratchArray best_;
+  ScratchArray total_;
+  ScratchArray here_;
+  ScratchArray distance_;
+  std::array<std::size_t, kMostPoints> winners_;
+};
+
+// Of the pieces' gradients in that of the largest sum: with F the sum of f_c over the places, and
+// s_j = f_j alpha'(D_j) / F,
+//   grad G = sum of alpha(D_j) grad f_j + sum over places c of (sum of s_j (d(c, j) - D_j)) grad
+//   f_c.
+class Mixture::Weights
+{
+public:
+  Weights(Mixture& mixture, const std::vector<std::size_t>& some)
+    : fields_(mixture.fields_)
+    , groups_(fields_.pieces().groupCount())
+    , points_(some.size())
+    , shares_(groups_ * points_)
+    , steps_(groups_ * points_)
+    , isPlace_(groups_ * points_)
+    , shift_(points_)
+  {
+    for (ScratchArray* array : { &shares_, &steps_, &isPlace_, &shift_ })
+    {
+      std::fill_n(array->data(), array->size(), 0.0);
+    }
+    for (std::size_t k = 0; k < points_; ++k)
+    {
+      if (mixture.best_[some[k]] > 0.0)
+      {
+        this->addSum(mixture, some[k], k);
+      }
+    }
+  }
+
+  /// Of a piece of a group, per point. False: all 0.
+  bool find(std::size_t group, std::size_t piece, double* weight)
+  {
+    const double* isPlace = this->row(isPlace_, group);
+    std::copy_n(this->row(shares_, group), points_, weight);
+    for (std::size_t k = 0; k < points_; ++k)
+    {
+      weight[k] -= isPlace[k] * shift_[k];
+    }
+    const double* distances = fields_.distances(piece);
+    for (const std::size_t other : varying_)
+    {
+      const double* steps = this->row(steps_, other);
+      for (std::size_t k = 0; k < points_; ++k)
+      {
+        weight[k] += isPlace[k] * distances[other] * steps[k];
+      }
+    }
+    return std::any_of(weight, weight + points_, [](double w) { return w != 0.0; });
+  }
+  bool isUsed(std::size_t group)
+  {
+    const auto isSet = [](double x) { return x != 0.0; };
+    const double* shares = this->row(shares_, group);
+    const double* isPlace = this->row(isPlace_, group);
+    return std::any_of(shares, shares + points_, isSet) ||
+      std::any_of(isPlace, isPlace + points_, isSet);
+  }
+
+private:
+  double* row(ScratchArray& rows, std::size_t group) { return rows.data() + group * points_; }
+
+  // The point has the place `at` among all, `k` among those wanted.
+  void addSum(Mixture& mixture, std::size_t at, std::size_t k)
+  {
+    const BlendSets::Set set = mixture.sets_[mixture.winners_[at]];
+    const BlendSets::Set places = mixture.placesOf(set);
+    double here = 0.0;
+    for (const std::size_t* place = places.begin; place != places.end; ++place)
+    {
+      here += fields_.field(*place)[at];
+      this->row(isPlace_, *place)[k] = 1.0;
+    }
+    for (const std::size_t* member = set.begin; member != set.end; ++member)
+    {
+      double distance = 0.0;
+      for (const std::size_t* place = places.begin; place != places.end; ++place)
+      {
+        distance += *place == *member ? 0.0 : fields_.far(*place, *member)[at];
+      }
+      distance /= here;
+      const double own = fields_.field(*member)[at];
+      const bool isCut = mixture.isCut(own, here);
+      this->row(shares_, isCut ? set.center : *member)[k] += mixture.share_(distance);
+      const double step = (isCut ? here : own) * mixture.share_.slope(distance) / here;
+      if (step != 0.0)
+      {
+        this->row(steps_, *member)[k] = step;
+        shift_[k] += step * distance;
+        varying_.push_back(*member);
+        std::inplace_merge(varying_.begin(), varying_.end() - 1, varying_.end());
+        varying_.erase(std::unique(varying_.begin(), varying_.end()), varying_.end());
+      }
+    }
+  }
+
+  PieceFields& fields_;
+  std::size_t groups_;
+  std::size_t points_;
+  ScratchArray shares_;              // per group: alpha
+  ScratchArray steps_;               // per group: s_j
+  ScratchArray isPlace_;             // per group: 1 or 0
+  ScratchArray shift_;               // sum of s_j D_j
+  std::vector<std::size_t> varying_; // groups with any s_j, ascending
+};
+
+void Mixture::findGradients(const std::vector<std::size_t>& some, const VectorBatch& gradient)
+{
+  const std::size_t count = some.size();
+  Weights weights(*this, some);
+  ScratchVectors at(count);
+  ScratchArray weight(count);
+  ScratchArray rows(8 * count);
+  std::fill_n(rows.data(), rows.size(), 0.0);
+  double* total = rows.data() + 4 * count;
+  for (std::size_t k = 0; k < count; ++k)
+  {
+    at.batch().set(k, fields_.points()[some[k]]);
+  }
+  const PiecesNear& pieces = fields_.pieces();
+  for (std::size_t group = 0; group < pieces.groupCount(); ++group)
+  {
+    if (!weights.isUsed(group))
+    {
+      continue;
+    }
+    for (std::size_t piece = pieces.begin(group); piece < pieces.end(group); ++piece)
+    {
+      if (!weights.find(group, piece, weight.data()))
+      {
+        continue;
+      }
+      std::fill_n(rows.data(), 4 * count, 0.0);
+      const auto row = [&](std::size_t k) { return rows.data() + k * count; };
+      fields_.addFieldAndGradient(piece, at.points(), row(0), { row(1), row(2), row(3) });
+      for (std::size_t axis = 1; axis < 4; ++axis)
+      {
+        for (std::size_t k = 0; k < count; ++k)
+        {
+          total[axis * count + k] += weight[k] * row(axis)[k];
+        }
+      }
+    }
+  }
+  for (std::size_t k = 0; k < count; ++k)
+  {
+    gradient.set(some[k], { total[count + k], total[2 * count + k], total[3 * count + k] });
+  }
+}
+
+void clear(std::size_t count, double* value, const VectorBatch* gradient)
+{
+  std::fill_n(value, count, 0.0);
+  for (double* array : { gradient ? gradient->x : value, gradient ? gradient->y : value,
+         gradient ? gradient->z : value })
+  {
+    std::fill_n(array, count, 0.0);
+  }
+}
+
+void mixPart(
+  const PiecesNear& pieces, PointBatch points, double* value, const VectorBatch* gradient)
+{
+  PieceFields fields(pieces, points);
+  std::vector<double> bounds(pieces.groupCount());
+  ScratchArray sum(points.size);
+  std::fill_n(sum.data(), points.size, 0.0);
+  for (std::size_t number = 0; number < bounds.size(); ++number)
+  {
+    const double* field = fields.field(number);
+    bounds[number] = *std::max_element(field, field + points.size);
+    for (std::size_t k = 0; k < points.size; ++k)
+    {
+      sum[k] += field[k];
+    }
+  }
+  Mixture mixture(fields, bounds);
+  const bool keepsSums = pieces.groups().isLocal();
+  std::vector<std::size_t> changed;
+  for (std::size_t k = 0; k < points.size; ++k)
+  {
+    if (!keepsSums || mixture.best(k) < sum[k])
+    {
+      value[k] = mixture.best(k);
+      changed.push_back(k);
+    }
+  }
+  if (gradient && !changed.empty())
+  {
+    mixture.findGradients(changed, *gradient);
+  }
+}
+
+} // namespace
+
+void mixBlends(
+  const BlendGroups& groups, PointBatch points, double* value, const VectorBatch* gradient)
+{
+  Box3 box;
+  for (std::size_t k = 0; k < points.size; ++k)
+  {
+    box.extend(points[k]);
+  }
+  const PiecesNear pieces(groups, box);
+  if (pieces.size() == 0)
+  {
+    clear(points.size, value, gradient);
+    return;
+  }
+  const std::size_t most = pieces.groupCount() * pieces.groupCount();
+  const std::size_t step = std::clamp<std::size_t>(kMostNumbers / most, 8, kMostPoints);
+  for (std::size_t begin = 0; begin < points.size; begin += step)
+  {
+    const std::size_t count = std::min(step, points.size - begin);
+    const VectorBatch slopes = gradient ? gradient->slice(begin) : VectorBatch{};
+    mixPart(pieces, points.slice(begin, count), value + begin, gradient ? &slopes : nullptr);
+  }
+}
+
+} // namespace hybridtree

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "core/convolution/BlendGroups.h"
+#include "core/convolution/BlendSelection.h"
+
+namespace hybridtree
+{
+
+/// The field under blending control (BlendedField.h), before the fading of the Cauchy kernel.
+///
+/// With the compact kernel each unit is integrated once, as the plain sum does it. Where
+/// upper bounds of the D_ij from these fields and selection.farthest leave every share 1, the sum
+/// is the field: nearly everywhere. The other points are left to BlendMixture.
+///
+/// Overwrites `value`, and `gradient` unless null.
+/// \pre selection.isControlled, and the selection is that of a box that holds the points.
+void sumBlends(const BlendGroups& groups, const BlendSelection& selection, PointBatch points,
+  double* value, const VectorBatch* gradient);
+
+} // namespace hybridtree

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/convolution/PieceFields.h"
+
+#include <algorithm>
+
+namespace hybridtree
+{
+
+PiecesNear::PiecesNear(const BlendGroups& groups, const Box3& box)
+  : groups_(groups), numbers_(groups.size())
+{
+  static thread_local ElementSelection selection; // no allocation once warm
+  groups.pieces.select(box, selection);
+  const auto placeOf = [&](const auto* element, const std::vector<BlendPieces::Place>& places)
+  { return &places[groups.pieces.index(element)]; };
+  std::vector<Piece> met;
+  met.reserve(selection.segments.size() + selection.triangles.size());
+  for (const SegmentElement* segment : selection.segments)
+  {
+    met.push_back({ segment, nullptr, placeOf(segment, groups.places.segmentPlaces) });
+  }
+  for (const TriangleElement* triangle : selection.triangles)
+  {
+    met.push_back({ nullptr, triangle, placeOf(triangle, groups.places.trianglePlaces) });
+  }
+  std::vector<std::size_t> numbers;
+  numbers.reserve(met.size());
+  for (const Piece& piece : met)
+  {
+    numbers.push_back(numbers_.add(piece.place->group));
+  }
+  begin_.assign(numbers_.size() + 1, 0);
+  for (const std::size_t number : numbers)
+  {
+    ++begin_[number + 1];
+  }
+  for (std::size_t number = 0; number < numbers_.size(); ++number)
+  {
+    begin_[number + 1] += begin_[number];
+  }
+  std::vector<std::size_t> next(begin_.begin(), begin_.end());
+  pieces_.resize(met.size());
+  for (std::size_t k = 0; k < met.size(); ++k)
+  {
+    pieces_[next[numbers[k]]++] = met[k];
+  }
+}
+
+PieceFields::PieceFields(const PiecesNear& pieces, PointBatch points)
+  : pieces_(pieces)
+  , kernel_(pieces.groups().whole.kernel())
+  , kernels_(convolutionKernels(kernel_.kind))
+  , farthest_(BlendShare(pieces.groups().control).farthest())
+  , points_(points)
+  , isKnown_(pieces.groupCount(), 0)
+  , isFarKnown_(pieces.groupCount() * pieces.groupCount(), 0)
+  , single_(pieces.size() * points.size)
+  , distances_(pieces.size() * pieces.groupCount())
+  , fields_(pieces.groupCount() * points.size)
+  , far_(isFarKnown_.size() * points.size)
+{
+}
+
+const double* PieceFields::field(std::size_t number)
+{
+  if (!isKnown_[number])
+  {
+    this->integrate(number);
+    isKnown_[number] = 1;
+  }
+  return this->row(fields_, number);
+}
+
+void PieceFields::integrate(std::size_t number)
+{
+  double* sum = this->row(fields_, number);
+  std::fill_n(sum, points_.size, 0.0);
+  const std::size_t groups = pieces_.groupCount();
+  for (std::size_t k = pieces_.begin(number); k < pieces_.end(number); ++k)
+  {
+    const PiecesNear::Piece& piece = pieces_[k];
+    double* value = this->row(single_, k);
+    std::fill_n(value, points_.size, 0.0);
+    if (piece.segment)
+    {
+      kernels_.addSegments({ &piece.segment, 1 }, kernel_, points_, value);
+    }
+    else
+    {
+      kernels_.addTriangles({ &piece.triangle, 1 }, kernel_, points_, value);
+    }
+    for (std::size_t i = 0; i < points_.size; ++i)
+    {
+      sum[i] += value[i];
+    }
+    double* distances = distances_.data() + k * groups;
+    std::fill_n(distances, groups, farthest_);
+    distances[number] = 0.0;
+    for (const GroupDistance& near : piece.place->distances)
+    {
+      const std::int32_t other = pieces_.find(near.group);
+      if (other >= 0)
+      {
+        distances[other] = near.distance;
+      }
+    }
+  }
+}
+
+const double* PieceFields::far(std::size_t number, std::size_t j)
+{
+  const std::size_t pair = number * pieces_.groupCount() + j;
+  double* sum = this->row(far_, pair);
+  if (isFarKnown_[pair])
+  {
+    return sum;
+  }
+  isFarKnown_[pair] = 1;
+  this->field(number);
+  std::fill_n(sum, points_.size, 0.0);
+  for (std::size_t k = pieces_.begin(number); k < pieces_.end(number); ++k)
+  {
+    const double* value = this->row(single_, k);
+    const double distance = this->distances(k)[j];
+    for (std::size_t i = 0; i < points_.size; ++i)
+    {
+      sum[i] += distance * value[i];
+    }
+  }
+  return sum;
+}
+
+void PieceFields::addFieldAndGradient(
+  std::size_t piece, PointBatch points, double* value, VectorBatch gradient) const
+{
+  const PiecesNear::Piece& of = pieces_[piece];
+  if (of.segment)
+  {
+    kernels_.addSegmentsWithGradient({ &of.segment, 1 }, kernel_, points, value, gradient);
+  }
+  else
+  {
+    kernels_.addTrianglesWithGradient({ &of.triangle, 1 }, kernel_, points, value, gradient);
+  }
+}
+
+} // namespace hybridtree

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/convolution/BlendedField.h"
+#include "tests/support/Random.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+// The pruned sums beside their definition (BlendedField.h).
+namespace hybridtree::test
+{
+namespace
+{
+
+// One group each.
+void add(GroupedElements& elements, std::int32_t a, std::int32_t b)
+{
+  const auto reach = [&](std::int32_t k) { return elements.reaches[static_cast<std::size_t>(k)]; };
+  elements.segments.push_back(
+    { { a, b }, { reach(a), reach(b) }, { { { 1.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 } } },
+      static_cast<std::int32_t>(elements.groups.size()) });
+  elements.groups.push_back({ a, b, -1 });
+}
+
+void add(GroupedElements& elements, std::int32_t a, std::int32_t b, std::int32_t c)
+{
+  const auto reach = [&](std::int32_t k) { return elements.reaches[static_cast<std::size_t>(k)]; };
+  elements.triangles.push_back({ { a, b, c }, { reach(a), reach(b), reach(c) },
+    { { { 1.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 }, { 0.0, 0.0, 1.0 } } },
+    static_cast<std::int32_t>(elements.groups.size()) });
+  elements.groups.push_back({ a, b, c });
+}
+
+// Limbs of random steps from a triangle's corners, through each other.
+GroupedElements tangle(Random& random, int limb)
+{
+  GroupedElements elements;
+  const auto point = [&](const Vec3& p)
+  {
+    elements.points.push_back(p);
+    elements.reaches.push_back(random.uniform(0.8, 1.3));
+    return static_cast<std::int32_t>(elements.points.size() - 1);
+  };
+  const std::int32_t a = point(Vec3(0, 0, 0));
+  const std::int32_t b = point(Vec3(1, 0, 0));
+  const std::int32_t c = point(Vec3(0.3, 0.9, 0));
+  add(elements, a, b, c);
+  for (std::int32_t at : { a, b, c })
+  {
+    for (int k = 0; k < limb; ++k)
+    {
+      const Vec3 step(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+      const std::int32_t next = point(elements.points[static_cast<std::size_t>(at)] + step);
+      add(elements, at, next);
+      at = next;
+    }
+  }
+  return elements;
+}
+
+// The sums at one point, from all elements and pieces.
+class Definition
+{
+public:
+  Definition(const GroupedElements& elements, const BlendingControl& control)
+    : control_(control), pieces_(makeBlendPieces(elements, control))
+  {
+  }
+
+  double operator()(const Vec3& p) const
+  {
+    const std::size_t groups = pieces_.neighbours.size();
+    std::vector<double> own(groups, 0.0);
+    std::vector<double> here;
+    std::vector<BlendPieces::Place> places;
+    const auto visit = [&](const auto& elements, const std::vector<BlendPieces::Place>& of)
+    {
+      for (std::size_t k = 0; k < elements.size(); ++k)
+      {
+        here.push_back(valueOf(elements[k], p));
+        places.push_back(of[k]);
+        own[static_cast<std::size_t>(of[k].group)] += here.back();
+      }
+    };
+    visit(pieces_.segments, pieces_.segmentPlaces);
+    visit(pieces_.triangles, pieces_.trianglePlaces);
+    double best = 0.0;
+    for (std::size_t i = 0; i < groups; ++i)
+    {
+      best = std::max(best, this->sum(static_cast<std::int32_t>(i), own, here, places));
+    }
+    return best;
+  }
+
+private:
+  static double valueOf(const SegmentElement& element, const Vec3& p)
+  {
+    const SegmentElement* pointer = &element;
+    double value = 0.0;
+    compactConvolutionKernels().addSegments(
+      { &pointer, 1 }, {}, { &p.x(), &p.y(), &p.z(), 1 }, &value);
+    return value;
+  }
+  static double valueOf(const TriangleElement& element, const Vec3& p)
+  {
+    const TriangleElement* pointer = &element;
+    double value = 0.0;
+    compactConvolutionKernels().addTriangles(
+      { &pointer, 1 }, {}, { &p.x(), &p.y(), &p.z(), 1 }, &value);
+    return value;
+  }
+
+  // G_i.
+  double sum(std::int32_t i, const std::vector<double>& own, const std::vector<double>& here,
+    const std::vector<BlendPieces::Place>& places) const
+  {
+    const std::vector<std::int32_t>& others = pieces_.neighbours[static_cast<std::size_t>(i)];
+    const auto isIn = [&](std::int32_t group)
+    { return group == i || std::binary_search(others.begin(), others.end(), group); };
+    const BlendShare share(control_);
+    const bool isPaper = control_.kind == BlendingKind::Paper;
+    double total = 0.0;
+    for (std::int32_t j = 0; j < static_cast<std::int32_t>(own.size()); ++j)
+    {
+      double sum = 0.0;
+      double far = 0.0;
+      for (std::size_t c = 0; c < here.size(); ++c)
+      {
+        if (isPaper ? places[c].group == i : isIn(places[c].group))
+        {
+          sum += here[c];
+          far += here[c] * distance(places[c], j, 2.0 * share.end());
+        }
+      }
+      if (!isIn(j) || sum == 0.0)
+      {
+        continue;
+      }
+      const double field = own[static_cast<std::size_t>(j)];
+      total +=
+        isPaper && j == i ? field : share(far / sum) * (isPaper ? std::min(field, sum) : field);
+    }
+    return total;
+  }
+
+  static double distance(const BlendPieces::Place& place, std::int32_t group, double farthest)
+  {
+    const auto found = std::find_if(place.distances.begin(), place.distances.end(),
+      [&](const GroupDistance& near) { return near.group == group; });
+    return place.group == group ? 0.0 : found != place.distances.end() ? found->distance : farthest;
+  }
+
+  BlendingControl control_;
+  BlendPieces pieces_;
+};
+
+class BlendSumsCases : public testing::TestWithParam<BlendingControl>
+{
+};
+
+TEST_P(BlendSumsCases, AreTheLargestSumOfTheDefinition)
+{
+  Random random(11);
+  int controlled = 0;
+  for (const int limb : { 1, 3, 6 })
+  {
+    const GroupedElements elements = tangle(random, limb);
+    const Definition definition(elements, GetParam());
+    const BlendedField field({}, GetParam(), elements);
+    const PointList points = randomPoints(random, field.influenceBounds(), 600);
+    std::vector<double> scattered(points.size(), 0.0);
+    field.addField(nullptr, points, scattered.data());
+    BlendSelection selection;
+    field.select(field.influenceBounds(), selection);
+    std::vector<double> together(points.size(), 0.0);
+    field.addField(&selection, points, together.data());
+    std::vector<double> sum(points.size(), 0.0);
+    field.sum().addField(selection.all, points, sum.data());
+    for (std::size_t k = 0; k < points.size(); ++k)
+    {
+      const double expected = definition(points.batch()[k]);
+      ASSERT_NEAR(scattered[k], expected, 1e-12);
+      ASSERT_NEAR(together[k], expected, 1e-12);
+      controlled += expected < sum[k] - 1e-6;
+    }
+  }
+  EXPECT_GT(controlled, 40);
+}
+
+INSTANTIATE_TEST_SUITE_P(Controls, BlendSumsCases,
+  testing::Values(BlendingControl{ BlendingKind::Neighbours, 0.5 },
+    BlendingControl{ BlendingKind::Neighbours, 1.0 },
+    BlendingControl{ BlendingKind::Neighbours, 2.25 }, BlendingControl{ BlendingKind::Paper }));
+
+} // namespace
+} // namespace hybridtree::test
