@@ -3,6 +3,7 @@
 #include "core/base/Error.h"
 #include "core/mesh/MeshChecks.h"
 #include "tests/core/skeletons/PlateCases.h"
+#include "tests/support/MeshShape.h"
 
 #include <gtest/gtest.h>
 
@@ -277,46 +278,16 @@ TEST(OffsetMesh, PointsAndNormalsAreExact)
   }
 }
 
-struct Shape
-{
-  double longest = 0.0;
-  double mean = 0.0;
-  double flatAngles = 0.0; // share of triangles with an angle below 25 degrees
-};
-
-Shape shapeOf(const TriangleMesh& mesh)
-{
-  Shape shape;
-  double sum = 0.0;
-  double flat = 0.0;
-  for (const Triangle& t : mesh.triangles)
-  {
-    double least = EIGEN_PI;
-    for (int k = 0; k < 3; ++k)
-    {
-      const Vec3 u = mesh.points[t[(k + 1) % 3]] - mesh.points[t[k]];
-      const Vec3 v = mesh.points[t[(k + 2) % 3]] - mesh.points[t[k]];
-      shape.longest = std::max(shape.longest, u.norm());
-      sum += u.norm();
-      least = std::min(least, std::atan2(u.cross(v).norm(), u.dot(v)));
-    }
-    flat += least < 25.0 * EIGEN_PI / 180.0;
-  }
-  shape.mean = sum / (3.0 * double(mesh.triangles.size()));
-  shape.flatAngles = flat / double(mesh.triangles.size());
-  return shape;
-}
-
 TEST(OffsetMesh, EdgesFillTheTargetLengthAndTrianglesAreWellShaped)
 {
   for (const OffsetCase& item : offsetCases())
   {
     for (const double length : { 0.02, 0.033, 0.05, 0.09 })
     {
-      const Shape shape = shapeOf(*item.skeleton->offsetMesh(item.radius, length));
+      const test::MeshShape shape = test::shapeOf(*item.skeleton->offsetMesh(item.radius, length));
       EXPECT_LE(shape.longest, length * (1.0 + 1e-12)) << item.name << " r " << item.radius;
       EXPECT_GE(shape.mean, 0.6 * length) << item.name << " r " << item.radius << " at " << length;
-      EXPECT_LE(shape.flatAngles, 0.01) << item.name << " r " << item.radius << " at " << length;
+      EXPECT_LE(shape.needles, 0.01) << item.name << " r " << item.radius << " at " << length;
     }
   }
 }

@@ -3,6 +3,7 @@
 #include "core/mesh/MeshChecks.h"
 #include "core/skeletons/LongestEdge.h"
 #include "tests/core/skeletons/PlateCases.h"
+#include "tests/support/MeshShape.h"
 
 #include <gtest/gtest.h>
 
@@ -18,28 +19,6 @@ namespace
 using test::Random;
 
 constexpr double kRadius = 0.05;
-
-// Share of the triangles with an angle under 25 degrees.
-double shareOfNeedles(const TriangleMesh& mesh)
-{
-  const double cosine = std::cos(25.0 * EIGEN_PI / 180.0);
-  double needles = 0.0;
-  for (const Triangle& t : mesh.triangles)
-  {
-    for (int k = 0; k < 3; ++k)
-    {
-      const Vec3& p = mesh.points[t[k]];
-      const Vec3 a = mesh.points[t[(k + 1) % 3]] - p;
-      const Vec3 b = mesh.points[t[(k + 2) % 3]] - p;
-      if (a.dot(b) > cosine * a.norm() * b.norm())
-      {
-        needles += 1.0 / double(mesh.triangles.size());
-        break;
-      }
-    }
-  }
-  return needles;
-}
 
 double areaOf(const TriangleMesh& mesh)
 {
@@ -101,7 +80,7 @@ TEST(PlateMesh, FacesOfAnyOutlineAreFilled)
     if (length == 0.03)
     {
       const auto mesh = skeleton.offsetMesh(kRadius, length);
-      EXPECT_LE(shareOfNeedles(*mesh), 0.01) << "round " << round;
+      EXPECT_LE(test::shapeOf(*mesh).needles, 0.01) << "round " << round;
     }
   }
 }
