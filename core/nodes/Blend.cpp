@@ -23,6 +23,7 @@ namespace
 // Points that are evaluated together: few enough that their box is small where points come in
 // order.
 constexpr std::size_t kSlice = 256;
+constexpr std::size_t kFewPoints = 32; // whose box is small against a radius of influence, mostly
 
 // A nested blend's terms are taken over up to this many: a chain of blends of shared children has
 // exponentially many.
@@ -300,6 +301,22 @@ private:
       });
   }
 
+  /// What is 0 only where the field is. Its bounds tell that for many points at once.
+  static void valuesOrSigns(const Node& node, PointBatch points, double* value)
+  {
+    for (std::size_t begin = 0; begin < points.size; begin += kFewPoints)
+    {
+      const PointBatch few = points.slice(begin, std::min(kFewPoints, points.size - begin));
+      const Interval range = node.range(boundsOf(few));
+      if (range.min > 0.0 || range.max < 0.0 || (range.min == 0.0 && range.max == 0.0))
+      {
+        std::fill_n(value + begin, few.size, range.min > 0.0 ? 1.0 : range.max);
+        continue;
+      }
+      node.field(few, value + begin);
+    }
+  }
+
   void sliceSourceLeaf(PointBatch points, std::int32_t* leaf) const
   {
     std::vector<const Term*> near;
@@ -312,7 +329,7 @@ private:
     ScratchArray value(points.size);
     for (std::size_t n = 0; n < near.size(); ++n)
     {
-      near[n]->node->field(points, value.data());
+      Blend::valuesOrSigns(*near[n]->node, points, value.data());
       for (std::size_t k = 0; k < points.size; ++k)
       {
         if (value[k] != 0.0)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/nodes/BlendMesh.h"
 
+#include "core/base/Dependency.h"
 #include "core/geometry/BoxUnion.h"
 #include "core/nodes/BlendCost.h"
 #include "core/nodes/BlendSource.h"
@@ -118,6 +119,42 @@ TriangleMesh wholeLattice(
   return mesh;
 }
 
+/// The mesh of a node at one edge length.
+struct MeshOfNode
+{
+  Dependency node;
+
+  bool operator==(const MeshOfNode& other) const { return node == other.node; }
+  bool isExpired() const { return node.isExpired(); }
+  std::uint64_t hash() const
+  {
+    HashSum sum;
+    node.addTo(sum);
+    return sum.value();
+  }
+};
+
+/// Meshes that came out of stitch(): checked where they are new, and taken from sound ones
+/// elsewhere, they need no second look.
+RecentStore<MeshOfNode, bool>& stitchedMeshes()
+{
+  constexpr std::size_t kMostBytes = std::size_t(1) << 20;
+  static auto* const instance =
+    new RecentStore<MeshOfNode, bool>(kMostBytes); // outlives all statics
+  return *instance;
+}
+
+bool isStitched(const Node& node, double edgeLength)
+{
+  return stitchedMeshes().find({ { node.shared_from_this(), edgeLength, 0 } }) != nullptr;
+}
+
+void noteStitched(const Node& node, double edgeLength)
+{
+  stitchedMeshes().keep({ { node.shared_from_this(), edgeLength, 0 } },
+    std::make_shared<const bool>(true), sizeof(MeshOfNode));
+}
+
 /// The meshes of the parts that keep theirs; takes the right from those whose mesh is not sound.
 std::vector<KeptPart> keptMeshes(const std::vector<BlendPart>& parts, std::vector<MarkTerm>& terms,
   double edgeLength, const Progress& progress)
@@ -141,7 +178,7 @@ std::vector<KeptPart> keptMeshes(const std::vector<BlendPart>& parts, std::vecto
     {
       continue;
     }
-    terms[k].kept = KeptMesh::of(part.mesh)->isSound();
+    terms[k].kept = isStitched(node, edgeLength) || KeptMesh::of(part.mesh)->isSound();
     if (terms[k].kept)
     {
       kept.push_back(std::move(part));
@@ -257,6 +294,7 @@ TriangleMesh stitchOver(const Node& blend, const IslandField& field,
   report.islands = stitched->islands;
   report.rememberedIslands = stitched->remembered;
   report.rounds = stitched->rounds;
+  noteStitched(blend, grid.cellSize);
   return std::move(stitched->mesh);
 }
 

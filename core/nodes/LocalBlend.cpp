@@ -5,6 +5,7 @@
 #include "core/nodes/BlendMesh.h"
 #include "core/nodes/Boolean.h"
 #include "core/nodes/BooleanSource.h"
+#include "core/nodes/DerivedNodes.h"
 #include "core/nodes/Membership.h"
 #include "core/nodes/Operator.h"
 
@@ -129,6 +130,14 @@ private:
   Interval range_; ///< over that box
 };
 
+/// The same object for the same two, so that a region that moves leaves its mesh alone.
+NodePtr unionOf(const NodePtr& a, const NodePtr& b)
+{
+  static auto* const unions = new DerivedNodes; // outlives all statics
+  return unions->of({ { a, 0.0, 0 }, { b, 0.0, 1 } }, Affine3::Identity(),
+    [&] { return makeBoolean(kUnion, a, b, kSmooth); });
+}
+
 class LocalBlend final : public Operator
 {
 public:
@@ -139,7 +148,7 @@ public:
     , region_(this->child(2).get())
     , options_(options)
     , source_(this->child(0), this->child(1), this->child(2))
-    , union_(makeBoolean(kUnion, this->child(0), this->child(1), kSmooth))
+    , union_(unionOf(this->child(0), this->child(1)))
   {
     negative_ = a_->isNegative() && b_->isNegative();
     influence_ = this->findInfluenceBounds();

@@ -32,8 +32,18 @@ constexpr double kRangeSlack = 1e-9;
 struct Reach
 {
   int term = 0;
-  bool certain = false;  ///< not 0 anywhere in the block
-  FieldSourcePtr source; ///< valid in the block
+  bool certain = false;                ///< not 0 anywhere in the block
+  const FieldSource* source = nullptr; ///< valid in the block
+};
+
+/// What the search in one unit goes on with, so that nothing is allocated for a block.
+struct Search
+{
+  std::vector<FieldSourcePtr> sources; ///< that blocks refer to
+  std::vector<int> possible;           ///< terms that may not be 0
+  std::vector<int> certain;
+  std::vector<Interval> ranges;
+  CellSet cells; ///< the marks
 };
 
 struct Block
@@ -211,21 +221,20 @@ private:
     {
       const MarkTerm& term = terms_[reach.term];
       key.terms.emplace_back(term.node->shared_from_this(), term.weight, term.kept ? 1 : 0);
-      reach.source = FieldSourcePtr(FieldSourcePtr(), term.node);
+      reach.source = term.node;
     }
     std::shared_ptr<const UnitMarks> marks = store().find(key);
     if (!marks)
     {
       std::stable_partition(unit.reach.begin(), unit.reach.end(),
         [&](const Reach& reach) { return !terms_[reach.term].node->isFaceted(); });
-      CellSet cells;
-      std::vector<FieldSourcePtr> ancestors;
-      this->markBlock(std::move(unit), ancestors, cells);
+      Search search;
+      this->markBlock(std::move(unit), search);
       if (this->areTooMany())
       {
         return nullptr;
       }
-      marks = std::make_shared<const UnitMarks>(cells.bricks());
+      marks = std::make_shared<const UnitMarks>(search.cells.bricks());
       store().keep(key, marks,
         sizeof key + key.terms.size() * sizeof(Dependency) +
           marks->size() * sizeof(CellSet::Brick));
@@ -254,57 +263,53 @@ private:
   };
 
   /// Asks the terms anew for a block, and drops those that do not reach it.
-  Answer look(Block& block) const
+  Answer look(Block& block, Search& search) const
   {
     const bool forSurface = block.side >= kSurfaceBlock;
     const Box3 box = this->boxOf(block, forSurface ? kSurfaceMargin : 0.0);
-    std::vector<int> possible;
-    std::vector<int> certain;
-    std::vector<Interval> ranges;
-    std::vector<Reach> left;
+    search.possible.clear();
+    search.certain.clear();
+    search.ranges.clear();
+    std::size_t left = 0;
     bool surface = !forSurface;
     bool dropped = false;
     for (std::size_t k = 0; k < block.reach.size(); ++k)
     {
-      Reach& reach = block.reach[k];
-      if (dropped && terms_[reach.term].node->isFaceted() && !this->mayMark(possible, block, k))
+      Reach reach = block.reach[k];
+      const MarkTerm& term = terms_[reach.term];
+      if (dropped && term.node->isFaceted() && !this->mayMark(search.possible, block, k))
       {
         return Answer::None; // whatever the meshes say, which takes long
       }
-      if (!forSurface && reach.certain)
+      if (forSurface || !reach.certain)
       {
-        possible.push_back(reach.term);
-        certain.push_back(reach.term);
-        left.push_back(reach);
-        continue;
+        const Interval range = reach.source->range(box);
+        if (range.min == 0.0 && range.max == 0.0)
+        {
+          dropped = true;
+          continue;
+        }
+        reach.certain = range.min > 0.0 || range.max < 0.0;
+        search.ranges.push_back({ term.weight * range.min, term.weight * range.max });
+        surface = surface || (term.kept && Marker::crosses(range));
       }
-      const Interval range = reach.source->range(box);
-      if (range.min == 0.0 && range.max == 0.0)
-      {
-        dropped = true;
-        continue;
-      }
-      reach.certain = range.min > 0.0 || range.max < 0.0;
-      possible.push_back(reach.term);
-      const double weight = terms_[reach.term].weight;
-      ranges.push_back({ weight * range.min, weight * range.max });
+      search.possible.push_back(reach.term);
       if (reach.certain)
       {
-        certain.push_back(reach.term);
+        search.certain.push_back(reach.term);
       }
-      surface = surface || (terms_[reach.term].kept && Marker::crosses(range));
-      left.push_back(reach);
+      block.reach[left++] = reach;
     }
-    block.reach = std::move(left);
-    if (!interaction_.marks(terms_, possible))
+    block.reach.resize(left);
+    if (!interaction_.marks(terms_, search.possible))
     {
       return Answer::None;
     }
-    if (!surface && !Marker::crosses(interaction_.range(possible, ranges)))
+    if (!surface && !Marker::crosses(interaction_.range(search.possible, search.ranges)))
     {
       return Answer::None;
     }
-    return interaction_.marks(terms_, certain) ? Answer::All : Answer::Open;
+    return interaction_.marks(terms_, search.certain) ? Answer::All : Answer::Open;
   }
 
   /// With all terms from number `next` on.
@@ -339,51 +344,47 @@ private:
     }
   }
 
-  /// Specialises the terms to a block. \param ancestors takes sources that others may refer to.
-  void narrow(Block& block, std::vector<FieldSourcePtr>& ancestors) const
+  /// Specialises the terms to a block.
+  void narrow(Block& block, Search& search) const
   {
     const Box3 box = this->boxOf(block, kSurfaceMargin);
-    std::vector<Reach> left;
-    for (Reach& reach : block.reach)
+    std::size_t left = 0;
+    for (Reach reach : block.reach)
     {
-      FieldSourcePtr source = reach.source->restrictedTo(box);
-      if (source)
+      if (FieldSourcePtr source = reach.source->restrictedTo(box))
       {
-        if (source != reach.source)
-        {
-          ancestors.push_back(std::move(reach.source));
-        }
-        left.push_back({ reach.term, reach.certain, std::move(source) });
+        reach.source = source.get();
+        search.sources.push_back(std::move(source));
+        block.reach[left++] = reach;
       }
     }
-    block.reach = std::move(left);
+    block.reach.resize(left);
   }
 
   bool areTooMany() const { return count_ > mostCells_; }
 
-  void markBlock(Block block, std::vector<FieldSourcePtr>& ancestors, CellSet& cells)
+  void markBlock(Block block, Search& search)
   {
     if (this->areTooMany())
     {
       return;
     }
-    const Answer answer = this->look(block);
+    const Answer answer = this->look(block, search);
     if (answer == Answer::None)
     {
       return;
     }
     if (block.side == 1 || (answer == Answer::All && block.side <= kSurfaceBlock))
     {
-      cells.insertBlock(block.low, static_cast<int>(block.side));
+      search.cells.insertBlock(block.low, static_cast<int>(block.side));
       count_ += static_cast<std::size_t>(block.side * block.side * block.side);
       return;
     }
     if (block.side >= kBrickSide)
     {
-      this->narrow(block, ancestors);
+      this->narrow(block, search);
     }
-    this->forEachChild(
-      block, [&](Block child) { this->markBlock(std::move(child), ancestors, cells); });
+    this->forEachChild(block, [&](Block child) { this->markBlock(std::move(child), search); });
   }
 
   const std::vector<MarkTerm>& terms_;

@@ -2,12 +2,24 @@
 #include "core/nodes/Operator.h"
 
 #include "core/base/Error.h"
+#include "core/nodes/DerivedNodes.h"
 
 #include <algorithm>
 #include <unordered_map>
 
 namespace hybridtree
 {
+
+namespace
+{
+
+NodePtr imageOf(const NodePtr& node, const Affine3& map)
+{
+  static auto* const images = new DerivedNodes; // outlives all statics
+  return images->of({ { node, 0.0, 0 } }, map, [&] { return node->affine(map); });
+}
+
+} // namespace
 
 Operator::Operator(std::vector<NodePtr> children) : children_(std::move(children))
 {
@@ -107,7 +119,7 @@ std::vector<NodePtr> Operator::imagesOfChildren(const Affine3& map) const
   for (const NodePtr& child : children_)
   {
     NodePtr& image = images[child.get()];
-    image = image ? image : child->affine(map);
+    image = image ? image : imageOf(child, map);
     result.push_back(image);
   }
   return result;

@@ -5,82 +5,80 @@
 #include "core/stitch/KeptMesh.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace hybridtree
 {
 namespace
 {
 
-constexpr std::size_t kGrain = 16384;
-
-template <typename Body>
-void forEachRange(std::size_t count, Body&& body)
-{
-  parallelFor(count, kGrain, body);
-}
-
-/// Which of 0 .. size - 1 stay, and the number that each of them gets.
+/// Which of 0 .. size - 1 stay, in runs that keep their order, and the numbers that they get.
 class Selection
 {
 public:
+  struct Run
+  {
+    std::size_t old;
+    std::size_t number;
+    std::size_t count;
+  };
+
   /// \param gone rising, each once.
   Selection(std::size_t size, const std::vector<std::int32_t>& gone, std::size_t firstNumber)
-    : first_(firstNumber)
   {
     std::size_t begin = 0;
     for (const std::int32_t g : gone)
     {
-      this->addRun(begin, static_cast<std::size_t>(g));
+      this->addRun(begin, static_cast<std::size_t>(g), firstNumber);
       begin = static_cast<std::size_t>(g) + 1;
     }
-    this->addRun(begin, size);
+    this->addRun(begin, size, firstNumber);
   }
 
-  std::size_t first() const { return first_; }
   std::size_t count() const { return count_; }
-
-  /// Calls body(old, number, count) for runs that keep their order, in parallel.
-  template <typename Body>
-  void forEachRun(Body&& body) const
-  {
-    forEachRange(count_,
-      [&](std::size_t begin, std::size_t end)
-      {
-        auto run = std::upper_bound(runs_.begin(), runs_.end(), begin,
-                     [](std::size_t at, const Run& candidate) { return at < candidate.number; }) -
-          1;
-        while (begin < end)
-        {
-          const std::size_t runEnd = run + 1 == runs_.end() ? count_ : (run + 1)->number;
-          const std::size_t last = std::min(end, runEnd);
-          body(run->old + (begin - run->number), first_ + begin, last - begin);
-          begin = last;
-          ++run;
-        }
-      });
-  }
+  const std::vector<Run>& runs() const { return runs_; }
 
 private:
-  struct Run
-  {
-    std::size_t old;
-    std::size_t number; ///< without that of the first
-  };
-
-  void addRun(std::size_t begin, std::size_t end)
+  void addRun(std::size_t begin, std::size_t end, std::size_t firstNumber)
   {
     if (begin < end)
     {
-      runs_.push_back({ begin, count_ });
+      runs_.push_back({ begin, firstNumber + count_, end - begin });
       count_ += end - begin;
     }
   }
 
   std::vector<Run> runs_;
-  std::size_t first_;
   std::size_t count_ = 0;
 };
 
+/// Appends what stays of an array.
+template <typename T>
+void appendKept(const std::vector<T>& from, const Selection& selection, std::vector<T>& to)
+{
+  for (const Selection::Run& run : selection.runs())
+  {
+    const auto begin = from.begin() + static_cast<std::ptrdiff_t>(run.old);
+    to.insert(to.end(), begin, begin + static_cast<std::ptrdiff_t>(run.count));
+  }
+}
+
+/// Appends an array without its beginning, or, where there is none, `count` times a value.
+template <typename T>
+void appendOrFill(const std::vector<T>& from, std::size_t begin, std::size_t count, const T& value,
+  std::vector<T>& to)
+{
+  if (from.empty())
+  {
+    to.insert(to.end(), count, value);
+  }
+  else
+  {
+    to.insert(to.end(), from.begin() + static_cast<std::ptrdiff_t>(begin), from.end());
+  }
+}
+
+/// Each array is filled from front to back, so that its memory is touched once; several at a time.
 class Assembler
 {
 public:
@@ -97,22 +95,27 @@ public:
   StitchedMesh run()
   {
     this->select();
-    this->allocate();
-    for (std::size_t p = 0; p < parts_.size(); ++p)
-    {
-      this->copyPoints(p);
-      this->copyTriangles(p);
-    }
-    std::size_t point = result_.keptPoints;
-    std::size_t triangle = result_.keptTriangles;
+    pointCount_ = result_.keptPoints;
+    triangleCount_ = result_.keptTriangles;
     for (const PlacedIsland& placed : islands_)
     {
-      this->addIsland(placed, point, triangle);
-      point += ownPoints(placed);
-      triangle += placed.island->mesh.triangles.size();
+      firstPoints_.push_back(pointCount_);
+      pointCount_ += ownPoints(placed);
+      triangleCount_ += placed.island->mesh.triangles.size();
       result_.samplePoints += placed.island->samplePoints;
       result_.cutTriangles += placed.island->cutTriangles;
     }
+    const std::array<void (Assembler::*)(), 6> fills = { &Assembler::fillTriangles,
+      &Assembler::fillPoints, &Assembler::fillNormals, &Assembler::fillOrigins,
+      &Assembler::fillLeaves, &Assembler::fillSourceTriangles };
+    parallelFor(fills.size(), 1,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t k = begin; k < end; ++k)
+        {
+          (this->*fills[k])();
+        }
+      });
     return std::move(result_);
   }
 
@@ -146,19 +149,16 @@ private:
         }
       }
     }
-    std::size_t points = 0;
-    std::size_t triangles = 0;
     for (std::size_t p = 0; p < parts_.size(); ++p)
     {
       std::sort(gone[p].begin(), gone[p].end());
       const TriangleMesh& mesh = *parts_[p].mesh;
-      points_.emplace_back(mesh.points.size(), this->pointsWithout(p, gone[p], used[p]), points);
-      triangles_.emplace_back(mesh.triangles.size(), gone[p], triangles);
-      points += points_.back().count();
-      triangles += triangles_.back().count();
+      points_.emplace_back(
+        mesh.points.size(), this->pointsWithout(p, gone[p], used[p]), result_.keptPoints);
+      triangles_.emplace_back(mesh.triangles.size(), gone[p], result_.keptTriangles);
+      result_.keptPoints += points_.back().count();
+      result_.keptTriangles += triangles_.back().count();
     }
-    result_.keptPoints = points;
-    result_.keptTriangles = triangles;
   }
 
   /// The points of a part that no triangle has any more.
@@ -166,126 +166,179 @@ private:
     const std::vector<std::int32_t>& used) const
   {
     const TriangleMesh& mesh = *parts_[p].mesh;
-    std::vector<std::int32_t> left = KeptMesh::of(parts_[p].mesh)->valence();
+    const PointTriangles& triangles = KeptMesh::of(parts_[p].mesh)->pointTriangles();
+    std::vector<bool> isGone(mesh.triangles.size(), false);
+    for (const std::int32_t t : gone)
+    {
+      isGone[t] = true;
+    }
+    std::vector<bool> isDone(mesh.points.size(), false); // stays, or is in the list
+    for (const std::int32_t v : used)
+    {
+      isDone[v] = true;
+    }
+    std::vector<std::int32_t> without = triangles.unused();
     for (const std::int32_t t : gone)
     {
       for (const std::int32_t v : mesh.triangles[t])
       {
-        --left[v];
+        const std::int32_t* const of = triangles.of(v);
+        if (!isDone[v] &&
+          std::all_of(of, of + triangles.count(v), [&](std::int32_t n) { return isGone[n]; }))
+        {
+          without.push_back(v);
+          isDone[v] = true;
+        }
       }
     }
-    for (const std::int32_t v : used)
-    {
-      ++left[v];
-    }
-    std::vector<std::int32_t> without;
-    for (std::size_t v = 0; v < left.size(); ++v)
-    {
-      if (left[v] == 0)
-      {
-        without.push_back(static_cast<std::int32_t>(v));
-      }
-    }
+    std::sort(without.begin(), without.end());
     return without;
   }
 
-  void allocate()
+  void fillPoints() { this->fillVectors(&TriangleMesh::points); }
+  void fillNormals() { this->fillVectors(&TriangleMesh::normals); }
+
+  void fillVectors(std::vector<Vec3> TriangleMesh::*array)
   {
-    std::size_t points = result_.keptPoints;
-    std::size_t triangles = result_.keptTriangles;
+    std::vector<Vec3>& to = result_.mesh.*array;
+    to.reserve(pointCount_);
+    for (std::size_t p = 0; p < parts_.size(); ++p)
+    {
+      appendKept((*parts_[p].mesh).*array, points_[p], to);
+    }
     for (const PlacedIsland& placed : islands_)
     {
-      points += ownPoints(placed);
-      triangles += placed.island->mesh.triangles.size();
+      const std::vector<Vec3>& from = placed.island->mesh.*array;
+      const auto rim = static_cast<std::ptrdiff_t>(placed.island->rim.size());
+      to.insert(to.end(), from.begin() + rim, from.end());
     }
-    TriangleMesh& mesh = result_.mesh;
-    mesh.points.resize(points);
-    mesh.normals.resize(points);
-    mesh.vertexOrigin.resize(hasOrigins_ ? points : 0);
-    mesh.triangles.resize(triangles);
-    mesh.sourceLeaf.resize(triangles);
-    mesh.sourceTriangle.resize(hasSourceTriangles_ ? triangles : 0, -1);
   }
 
-  void copyPoints(std::size_t p)
+  void fillOrigins()
   {
-    const TriangleMesh& from = *parts_[p].mesh;
-    TriangleMesh& to = result_.mesh;
-    std::vector<std::int32_t> number(from.points.size(), -1);
-    points_[p].forEachRun(
-      [&](std::size_t old, std::size_t first, std::size_t count)
-      {
-        std::copy_n(&from.points[old], count, &to.points[first]);
-        std::copy_n(&from.normals[old], count, &to.normals[first]);
-        for (std::size_t k = 0; k < count; ++k)
-        {
-          number[old + k] = static_cast<std::int32_t>(first + k);
-        }
-        for (std::size_t k = 0; k < count && !from.vertexOrigin.empty(); ++k)
-        {
-          VertexOrigin origin = from.vertexOrigin[old + k];
-          origin.leaf += origin.leaf >= 0 ? parts_[p].firstLeaf : 0;
-          to.vertexOrigin[first + k] = origin;
-        }
-      });
-    numbers_.push_back(std::move(number));
-  }
-
-  void copyTriangles(std::size_t p)
-  {
-    const TriangleMesh& from = *parts_[p].mesh;
-    TriangleMesh& to = result_.mesh;
-    const std::vector<std::int32_t>& number = numbers_[p];
-    triangles_[p].forEachRun(
-      [&](std::size_t old, std::size_t first, std::size_t count)
-      {
-        for (std::size_t k = 0; k < count; ++k)
-        {
-          const Triangle& c = from.triangles[old + k];
-          to.triangles[first + k] = { number[c[0]], number[c[1]], number[c[2]] };
-        }
-        for (std::size_t k = 0; k < count; ++k)
-        {
-          const std::int32_t leaf = from.sourceLeaf.empty() ? -1 : from.sourceLeaf[old + k];
-          to.sourceLeaf[first + k] = leaf < 0 ? -1 : leaf + parts_[p].firstLeaf;
-        }
-        if (!from.sourceTriangle.empty())
-        {
-          std::copy_n(&from.sourceTriangle[old], count, &to.sourceTriangle[first]);
-        }
-      });
-  }
-
-  void addIsland(const PlacedIsland& placed, std::size_t firstPoint, std::size_t firstTriangle)
-  {
-    const Island& island = *placed.island;
-    const TriangleMesh& from = island.mesh;
-    TriangleMesh& to = result_.mesh;
-    const auto rim = static_cast<std::ptrdiff_t>(island.rim.size());
-    const auto at = [](auto& values, std::size_t first)
-    { return values.begin() + static_cast<std::ptrdiff_t>(first); };
-    std::copy(from.points.begin() + rim, from.points.end(), at(to.points, firstPoint));
-    std::copy(from.normals.begin() + rim, from.normals.end(), at(to.normals, firstPoint));
-    if (!from.vertexOrigin.empty())
+    if (!hasOrigins_)
     {
-      std::copy(
-        from.vertexOrigin.begin() + rim, from.vertexOrigin.end(), at(to.vertexOrigin, firstPoint));
+      return;
     }
-    std::copy(from.sourceLeaf.begin(), from.sourceLeaf.end(), at(to.sourceLeaf, firstTriangle));
-    if (!from.sourceTriangle.empty())
+    std::vector<VertexOrigin>& to = result_.mesh.vertexOrigin;
+    to.reserve(pointCount_);
+    for (std::size_t p = 0; p < parts_.size(); ++p)
     {
-      std::copy(from.sourceTriangle.begin(), from.sourceTriangle.end(),
-        at(to.sourceTriangle, firstTriangle));
-    }
-    const auto shift = static_cast<std::int32_t>(firstPoint) - static_cast<std::int32_t>(rim);
-    for (std::size_t t = 0; t < from.triangles.size(); ++t)
-    {
-      for (int k = 0; k < 3; ++k)
+      const std::vector<VertexOrigin>& from = parts_[p].mesh->vertexOrigin;
+      const std::size_t first = to.size();
+      if (from.empty())
       {
-        const std::int32_t v = from.triangles[t][k];
-        to.triangles[firstTriangle + t][k] =
-          v < rim ? numbers_[placed.parts[island.rim[v].part]][island.rim[v].point] : v + shift;
+        to.resize(first + points_[p].count());
+        continue;
       }
+      appendKept(from, points_[p], to);
+      for (std::size_t k = first; k < to.size() && parts_[p].firstLeaf != 0; ++k)
+      {
+        to[k].leaf += to[k].leaf >= 0 ? parts_[p].firstLeaf : 0;
+      }
+    }
+    for (const PlacedIsland& placed : islands_)
+    {
+      appendOrFill(placed.island->mesh.vertexOrigin, placed.island->rim.size(), ownPoints(placed),
+        VertexOrigin(), to);
+    }
+  }
+
+  void fillTriangles()
+  {
+    std::vector<Triangle>& to = result_.mesh.triangles;
+    to.reserve(triangleCount_);
+    std::vector<std::vector<std::int32_t>> numbers; // per part and point: of the result, or -1
+    for (std::size_t p = 0; p < parts_.size(); ++p)
+    {
+      numbers.push_back(this->numbersOf(p));
+      const std::vector<std::int32_t>& number = numbers.back();
+      for (const Selection::Run& run : triangles_[p].runs())
+      {
+        for (std::size_t t = run.old; t < run.old + run.count; ++t)
+        {
+          const Triangle& c = parts_[p].mesh->triangles[t];
+          to.push_back({ number[c[0]], number[c[1]], number[c[2]] });
+        }
+      }
+    }
+    for (std::size_t k = 0; k < islands_.size(); ++k)
+    {
+      const Island& island = *islands_[k].island;
+      const auto rim = static_cast<std::int32_t>(island.rim.size());
+      const std::int32_t shift = static_cast<std::int32_t>(firstPoints_[k]) - rim;
+      for (Triangle c : island.mesh.triangles)
+      {
+        for (std::int32_t& v : c)
+        {
+          v = v < rim ? numbers[islands_[k].parts[island.rim[v].part]][island.rim[v].point]
+                      : v + shift;
+        }
+        to.push_back(c);
+      }
+    }
+  }
+
+  std::vector<std::int32_t> numbersOf(std::size_t p) const
+  {
+    std::vector<std::int32_t> number(parts_[p].mesh->points.size(), -1);
+    for (const Selection::Run& run : points_[p].runs())
+    {
+      const auto begin = number.begin() + static_cast<std::ptrdiff_t>(run.old);
+      std::iota(begin, begin + static_cast<std::ptrdiff_t>(run.count),
+        static_cast<std::int32_t>(run.number));
+    }
+    return number;
+  }
+
+  void fillLeaves()
+  {
+    std::vector<std::int32_t>& to = result_.mesh.sourceLeaf;
+    to.reserve(triangleCount_);
+    for (std::size_t p = 0; p < parts_.size(); ++p)
+    {
+      const std::size_t first = to.size();
+      const std::vector<std::int32_t>& from = parts_[p].mesh->sourceLeaf;
+      if (from.empty())
+      {
+        to.resize(first + triangles_[p].count(), -1);
+        continue;
+      }
+      appendKept(from, triangles_[p], to);
+      for (std::size_t t = first; t < to.size(); ++t)
+      {
+        to[t] = to[t] < 0 ? -1 : to[t] + parts_[p].firstLeaf;
+      }
+    }
+    for (const PlacedIsland& placed : islands_)
+    {
+      const std::vector<std::int32_t>& from = placed.island->mesh.sourceLeaf;
+      to.insert(to.end(), from.begin(), from.end());
+    }
+  }
+
+  void fillSourceTriangles()
+  {
+    if (!hasSourceTriangles_)
+    {
+      return;
+    }
+    std::vector<std::int32_t>& to = result_.mesh.sourceTriangle;
+    to.reserve(triangleCount_);
+    for (std::size_t p = 0; p < parts_.size(); ++p)
+    {
+      const std::vector<std::int32_t>& from = parts_[p].mesh->sourceTriangle;
+      if (from.empty())
+      {
+        to.resize(to.size() + triangles_[p].count(), -1);
+        continue;
+      }
+      appendKept(from, triangles_[p], to);
+    }
+    for (const PlacedIsland& placed : islands_)
+    {
+      const TriangleMesh& from = placed.island->mesh;
+      appendOrFill(from.sourceTriangle, 0, from.triangles.size(), -1, to);
     }
   }
 
@@ -293,9 +346,11 @@ private:
   const std::vector<PlacedIsland>& islands_;
   bool hasSourceTriangles_ = false;
   bool hasOrigins_ = false;
-  std::vector<Selection> points_;                  ///< per part
-  std::vector<Selection> triangles_;               ///< per part
-  std::vector<std::vector<std::int32_t>> numbers_; ///< per part and point: of the result, or -1
+  std::vector<Selection> points_;        ///< per part
+  std::vector<Selection> triangles_;     ///< per part
+  std::vector<std::size_t> firstPoints_; ///< per island: of its own ones, in the result
+  std::size_t pointCount_ = 0;           ///< of the result
+  std::size_t triangleCount_ = 0;
   StitchedMesh result_;
 };
 

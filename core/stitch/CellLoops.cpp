@@ -19,7 +19,9 @@ double badness(const Vec3& a, const Vec3& b, const Vec3& c)
   std::sort(squared, squared + 3);
   const double scale = 2.0 * std::sqrt(squared[1] * squared[2]);
   const double cosine = scale > 0.0 ? (squared[1] + squared[2] - squared[0]) / scale : 1.0;
-  return std::pow(std::max(cosine, 0.0), 8);
+  const double positive = std::max(cosine, 0.0);
+  const double fourth = positive * positive * positive * positive;
+  return fourth * fourth;
 }
 
 /// Dynamic programming over all triangulations (Klincsek 1980).

@@ -14,6 +14,16 @@ std::uint64_t bitOf(std::int64_t x, std::int64_t y)
   return std::uint64_t(1) << (kBrickSide * y + x);
 }
 
+int highestBit(std::uint64_t word)
+{
+  int bit = 0;
+  while ((word >>= 1) != 0)
+  {
+    ++bit;
+  }
+  return bit;
+}
+
 } // namespace
 
 Index3 brickOf(const Index3& index)
@@ -169,6 +179,44 @@ Index3 CellSet::high() const
   constexpr int kLast = kBrickSide - 1;
   return { kBrickSide * high[0] + kLast, kBrickSide * high[1] + kLast,
     kBrickSide * high[2] + kLast };
+}
+
+std::vector<Box3> CellSet::boxes(const CellGrid& grid, double margin) const
+{
+  std::vector<Box3> boxes;
+  for (const Brick& brick : bricks_)
+  {
+    Index3 low{ kBrickSide, kBrickSide, kBrickSide };
+    Index3 high{ -1, -1, -1 };
+    for (int z = 0; z < kBrickSide; ++z)
+    {
+      for (int y = 0; y < kBrickSide; ++y)
+      {
+        const std::uint64_t row = brick.bits[z] >> (kBrickSide * y) & 0xffu;
+        if (row != 0)
+        {
+          low = { std::min<std::int64_t>(low[0], lowestBit(row)), std::min<std::int64_t>(low[1], y),
+            std::min<std::int64_t>(low[2], z) };
+          high = { std::max<std::int64_t>(high[0], highestBit(row)),
+            std::max<std::int64_t>(high[1], y), z };
+        }
+      }
+    }
+    if (high[2] < 0)
+    {
+      continue; // no cell at all
+    }
+    Box3 box;
+    for (const Index3& cell : { low, high })
+    {
+      box.extend(
+        grid.boxOf({ kBrickSide * brick.index[0] + cell[0], kBrickSide * brick.index[1] + cell[1],
+                     kBrickSide * brick.index[2] + cell[2] },
+          1.0, margin));
+    }
+    boxes.push_back(box);
+  }
+  return boxes;
 }
 
 CellSet::Share CellSet::shareOf(const Index3& low, const Index3& high) const

@@ -3,6 +3,7 @@
 
 #include "core/polygonize/Brick.h"
 #include "core/polygonize/Lattice.h"
+#include "core/stitch/CellGrid.h"
 
 #include <unordered_map>
 #include <vector>
@@ -62,6 +63,9 @@ public:
   Index3 low() const;
   Index3 high() const; ///< included
   ///@}
+
+  /// Of the cells in each brick, and `margin` cells around.
+  std::vector<Box3> boxes(const CellGrid& grid, double margin) const;
 
   /// Some, all or none of the cells of a box (both ends included) are in the set.
   enum class Share

@@ -2,7 +2,6 @@
 #include "core/stitch/CheckPatch.h"
 
 #include <algorithm>
-#include <tuple>
 
 namespace hybridtree
 {
@@ -12,42 +11,18 @@ namespace
 constexpr double kTurnedOver = -0.2; // cosine to the normals
 constexpr double kSliver = 0.05;     // height over longest side
 
-/// A triangle as one of its points sees it.
-struct Corner
+/// \pre by rising `from`.
+bool isClosedSortedFan(const FanSide* begin, const FanSide* end)
 {
-  std::int32_t point;
-  std::int32_t from; ///< the sides at the point go to here, and come from `to`
-  std::int32_t to;
-};
-
-void addCorners(const Triangle& c, const std::vector<bool>& isNew, std::vector<Corner>& corners)
-{
-  for (int k = 0; k < 3; ++k)
-  {
-    if (static_cast<std::size_t>(c[k]) < isNew.size() && isNew[c[k]])
-    {
-      corners.push_back({ c[k], c[(k + 1) % 3], c[(k + 2) % 3] });
-    }
-  }
-}
-
-/// \pre begin to end are the corners at one point, by rising `from`.
-bool isOneFan(const Corner* begin, const Corner* end)
-{
-  const auto count = static_cast<std::size_t>(end - begin);
-  if (count < 3)
-  {
-    return false;
-  }
-  const Corner* at = begin;
-  for (std::size_t k = 0; k < count; ++k)
+  const FanSide* at = begin;
+  for (const FanSide* k = begin; k != end; ++k)
   {
     if (at->to == at->point || at->from == at->point || at->to == at->from)
     {
       return false;
     }
-    const auto next = std::equal_range(begin, end, Corner{ 0, at->to, 0 },
-      [](const Corner& a, const Corner& b) { return a.from < b.from; });
+    const auto next = std::equal_range(begin, end, FanSide{ 0, at->to, 0 },
+      [](const FanSide& a, const FanSide& b) { return a.from < b.from; });
     if (next.second - next.first != 1)
     {
       return false;
@@ -55,7 +30,7 @@ bool isOneFan(const Corner* begin, const Corner* end)
     at = next.first;
     if (at == begin)
     {
-      return k + 1 == count;
+      return k + 1 == end;
     }
   }
   return false;
@@ -63,42 +38,97 @@ bool isOneFan(const Corner* begin, const Corner* end)
 
 } // namespace
 
+bool isClosedFan(FanSide* begin, FanSide* end)
+{
+  if (end - begin < 3)
+  {
+    return false;
+  }
+  // Each is brought behind the one it continues. Fans are small: to look is faster than to sort.
+  constexpr std::ptrdiff_t kMany = 24;
+  if (end - begin > kMany)
+  {
+    std::sort(begin, end, [](const FanSide& a, const FanSide& b) { return a.from < b.from; });
+    return isClosedSortedFan(begin, end);
+  }
+  for (FanSide* at = begin; at != end; ++at)
+  {
+    if (at->from == at->point || at->to == at->point || at->from == at->to)
+    {
+      return false;
+    }
+    FanSide* next = nullptr; // the one side that begins where this one ends
+    for (FanSide* other = at + 1; other != end; ++other)
+    {
+      if (other->from == at->to)
+      {
+        if (next)
+        {
+          return false;
+        }
+        next = other;
+      }
+    }
+    if (!next)
+    {
+      return at + 1 == end && at->to == begin->from;
+    }
+    if (at->to == begin->from)
+    {
+      return false;
+    }
+    std::swap(*(at + 1), *next);
+  }
+  return false;
+}
+
 std::vector<std::int32_t> faultyPoints(
   const TriangleMesh& mesh, const std::vector<Triangle>& around)
 {
-  std::vector<bool> isNew(mesh.points.size(), false);
+  const std::size_t points = mesh.points.size();
+  std::vector<std::int32_t> count(points, 0); // of sides at each
   for (const Triangle& triangle : mesh.triangles)
   {
     for (const std::int32_t v : triangle)
     {
-      isNew[v] = true;
+      ++count[v];
     }
   }
-  std::vector<Corner> corners;
-  corners.reserve(3 * mesh.triangles.size() + around.size());
+  const auto forEachSide = [&](const Triangle& c, auto&& visit)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      if (static_cast<std::size_t>(c[k]) < points && count[c[k]] > 0)
+      {
+        visit(FanSide{ c[k], c[(k + 1) % 3], c[(k + 2) % 3] });
+      }
+    }
+  };
+  for (const Triangle& triangle : around)
+  {
+    forEachSide(triangle, [&](const FanSide& side) { ++count[side.point]; });
+  }
+  std::vector<std::int32_t> next(points, 0);
+  for (std::size_t v = 1; v < points; ++v)
+  {
+    next[v] = next[v - 1] + count[v - 1];
+  }
+  const std::vector<std::int32_t> begin = next;
+  std::vector<FanSide> sides(points > 0 ? static_cast<std::size_t>(next.back() + count.back()) : 0);
   for (const std::vector<Triangle>* triangles : { &mesh.triangles, &around })
   {
     for (const Triangle& triangle : *triangles)
     {
-      addCorners(triangle, isNew, corners);
+      forEachSide(triangle, [&](const FanSide& side) { sides[next[side.point]++] = side; });
     }
   }
-  std::sort(corners.begin(), corners.end(),
-    [](const Corner& a, const Corner& b)
-    { return std::tie(a.point, a.from, a.to) < std::tie(b.point, b.from, b.to); });
   std::vector<std::int32_t> faulty;
-  for (std::size_t begin = 0; begin < corners.size();)
+  for (std::size_t v = 0; v < points; ++v)
   {
-    std::size_t end = begin;
-    while (end < corners.size() && corners[end].point == corners[begin].point)
+    if (count[v] > 0 && !isClosedFan(sides.data() + begin[v], sides.data() + next[v]))
     {
-      ++end;
+      faulty.push_back(static_cast<std::int32_t>(v));
     }
-    if (!isOneFan(corners.data() + begin, corners.data() + end))
-    {
-      faulty.push_back(corners[begin].point);
-    }
-    begin = end;
   }
   return faulty;
 }

@@ -60,6 +60,8 @@ public:
   {
     low_ = cells.low();
     high_ = cells.high();
+    bounds_ = grid.boxOf(low_, 0.0, 1.0);
+    bounds_.extend(grid.boxOf(high_, 0.0, 2.0));
   }
 
   CutMesh run(const std::vector<std::int32_t>& candidates, const Progress& progress)
@@ -122,17 +124,19 @@ private:
   CellSet::Share shareOf(std::int32_t t) const
   {
     const Triangle& c = mesh_.triangles[t];
+    const Vec3& a = mesh_.points[c[0]];
+    const Vec3& b = mesh_.points[c[1]];
+    const Vec3& d = mesh_.points[c[2]];
+    const Box3 box(Vec3(a.cwiseMin(b).cwiseMin(d)), Vec3(a.cwiseMax(b).cwiseMax(d)));
+    if (!box.intersects(bounds_))
+    {
+      return CellSet::Share::None;
+    }
     Index3 from{}, to{};
     for (int axis = 0; axis < 3; ++axis)
     {
-      const auto [low, high] = std::minmax(
-        { mesh_.points[c[0]][axis], mesh_.points[c[1]][axis], mesh_.points[c[2]][axis] });
-      from[axis] = std::max(grid_.slab(axis, low), low_[axis] - 1);
-      to[axis] = std::min(grid_.slab(axis, high), high_[axis] + 1);
-      if (from[axis] > high_[axis] || to[axis] < low_[axis])
-      {
-        return CellSet::Share::None;
-      }
+      from[axis] = std::max(grid_.slab(axis, box.min()[axis]), low_[axis] - 1);
+      to[axis] = std::min(grid_.slab(axis, box.max()[axis]), high_[axis] + 1);
     }
     return cells_.shareOf(from, to);
   }
@@ -143,7 +147,8 @@ private:
     some_ = false;
     all_ = true;
     const Triangle& c = mesh_.triangles[t];
-    this->cutPiece({ { c[0], {} }, { c[1], {} }, { c[2], {} } }, {}, 0);
+    whole_ = { { c[0], {} }, { c[1], {} }, { c[2], {} } };
+    this->cutPiece(whole_, {}, 0);
     if (!some_)
     {
       return; // wholly outside
@@ -156,7 +161,8 @@ private:
     }
   }
 
-  void cutPiece(Piece piece, Index3 cell, int axis)
+  /// \param piece what is left of it in the last cell, afterwards.
+  void cutPiece(Piece& piece, Index3 cell, int axis)
   {
     if (axis == 3)
     {
@@ -180,16 +186,19 @@ private:
     }
     for (cell[axis] = first; cell[axis] < last; ++cell[axis])
     {
-      for (Piece& below : this->split(piece, { static_cast<std::int8_t>(axis), cell[axis] + 1 }))
+      const std::size_t count =
+        this->split(piece, { static_cast<std::int8_t>(axis), cell[axis] + 1 });
+      for (std::size_t k = 0; k < count; ++k)
       {
-        this->cutPiece(std::move(below), cell, axis + 1);
+        this->cutPiece(below_[axis][k], cell, axis + 1);
       }
     }
-    this->cutPiece(std::move(piece), cell, axis + 1);
+    this->cutPiece(piece, cell, axis + 1);
   }
 
-  /// Takes off what of a piece is below a plane. In one part but for pieces that rounding has bent.
-  std::vector<Piece> split(Piece& piece, const Plane& plane)
+  /// Takes off what of a piece is below a plane: the first in below_ of the axis, as many as this
+  /// returns. In one part but for pieces that rounding has bent.
+  std::size_t split(Piece& piece, const Plane& plane)
   {
     const std::size_t n = piece.size();
     const auto isBelow = [&](std::size_t k)
@@ -199,12 +208,19 @@ private:
     {
       ++start;
     }
-    std::vector<Piece> below;
     if (start == n)
     {
-      return below; // nothing is below
+      return 0; // nothing is below
     }
-    Piece above;
+    std::vector<Piece>& below = below_[plane.axis];
+    std::size_t count = 0;
+    const auto open = [&](const Corner& corner)
+    {
+      below.resize(std::max(below.size(), ++count));
+      below[count - 1] = { corner };
+    };
+    Piece& above = above_;
+    above.clear();
     for (std::size_t k = 0; k < n; ++k)
     {
       const std::size_t at = (start + k) % n;
@@ -216,20 +232,20 @@ private:
         {
           const std::int32_t v = this->vertexAt(corner, piece[(at + 1) % n].vertex, plane);
           above.push_back({ v, plane });
-          below.push_back({ { v, corner.side } });
+          open({ v, corner.side });
         }
         continue;
       }
-      below.back().push_back(corner);
+      below[count - 1].push_back(corner);
       if (!isBelow(at + 1))
       {
         const std::int32_t v = this->vertexAt(corner, piece[(at + 1) % n].vertex, plane);
-        below.back().push_back({ v, plane });
+        below[count - 1].push_back({ v, plane });
         above.push_back({ v, corner.side });
       }
     }
-    piece = std::move(above);
-    return below;
+    std::swap(piece, above);
+    return count;
   }
 
   /// Where the side from a corner meets the plane: one vertex for both who have that side.
@@ -422,12 +438,16 @@ private:
   const std::int32_t points_;
   Index3 low_{};
   Index3 high_{};
+  Box3 bounds_; ///< of the cells, and a bit more
   CutMesh result_;
   std::vector<Vec3> positions_; ///< of made vertices
   std::vector<Made> made_;
   std::unordered_map<CutKey, std::int32_t, CutKeyHash> numbers_;
 
-  // Of the triangle that is being cut.
+  // Of the triangle that is being cut, so that nothing is allocated for it.
+  Piece whole_;
+  Piece above_;
+  std::array<std::vector<Piece>, 3> below_; ///< per axis
   std::vector<Side> sides_;
   std::vector<Side> border_;
   std::int32_t current_ = 0;

@@ -60,7 +60,7 @@ struct CutMesh
 /// complex for every input, whatever rounding does; the pieces outside are then put together again
 /// and triangulated anew. Vertices of neighbouring triangles never differ: no T-junctions.
 ///
-/// \param candidates triangles, rising: all that may touch the cells (TriangleBricks::near()).
+/// \param candidates triangles, rising: all that may touch the cells (TriangleBlocks::near()).
 /// \pre cells is sorted and without diagonal contacts (CellSet::fillDiagonals()); mesh has indices
 /// in range. \throws Cancelled.
 CutMesh cutMesh(const TriangleMesh& mesh, const std::vector<std::int32_t>& candidates,

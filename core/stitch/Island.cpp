@@ -17,7 +17,8 @@ namespace hybridtree
 namespace
 {
 
-constexpr double kReach = 0.5; // cells that a cut vertex may move
+constexpr double kReach = 0.5;     // cells that a cut vertex may move
+constexpr double kRounding = 1e-6; // cells
 
 /// Where the gradient gives no normal, the triangles do.
 void mendNormals(TriangleMesh& mesh)
@@ -346,33 +347,31 @@ private:
   void addTrianglesAround(std::size_t p, const std::vector<std::int32_t>& gone, std::int32_t beyond,
     std::vector<Triangle>& around) const
   {
-    std::vector<Vec3> places;
+    const PointTriangles& triangles = KeptMesh::of(parts_[p].mesh)->pointTriangles();
+    std::vector<std::int32_t> near;
     for (const PartPoint& at : island_.rim)
     {
       if (at.part == static_cast<std::int32_t>(p))
       {
-        places.push_back(parts_[p].mesh->points[at.point]);
+        const std::int32_t* const of = triangles.of(at.point);
+        near.insert(near.end(), of, of + triangles.count(at.point));
       }
     }
-    const auto bricks = KeptMesh::of(parts_[p].mesh)->bricks(options_.grid);
-    for (const std::int32_t t : bricks->near(places))
+    std::sort(near.begin(), near.end());
+    near.erase(std::unique(near.begin(), near.end()), near.end());
+    for (const std::int32_t t : near)
     {
       if (std::binary_search(gone.begin(), gone.end(), t))
       {
         continue;
       }
       Triangle c = parts_[p].mesh->triangles[t];
-      bool touches = false;
       for (std::int32_t& v : c)
       {
         const std::int32_t number = this->rimNumber(p, v);
-        touches = touches || number >= 0;
         v = number >= 0 ? number : beyond + v;
       }
-      if (touches)
-      {
-        around.push_back(c);
-      }
+      around.push_back(c);
     }
   }
 
@@ -429,11 +428,12 @@ IslandCut cutIsland(const std::vector<KeptPart>& parts, const CellSet& cells, co
   const Progress& progress)
 {
   IslandCut result;
+  const std::vector<Box3> boxes = cells.boxes(grid, kRounding);
   for (std::size_t p = 0; p < parts.size(); ++p)
   {
     const TriangleMesh& mesh = *parts[p].mesh;
-    const auto bricks = KeptMesh::of(parts[p].mesh)->bricks(grid);
-    result.cuts.push_back(cutMesh(mesh, bricks->near(cells), cells, grid, progress));
+    const TriangleBlocks& blocks = KeptMesh::of(parts[p].mesh)->blocks();
+    result.cuts.push_back(cutMesh(mesh, blocks.near(boxes), cells, grid, progress));
     std::vector<std::int32_t> corners;
     for (const std::int32_t t : result.cuts.back().cutTriangles)
     {

@@ -2,46 +2,35 @@
 #pragma once
 
 #include "core/mesh/TriangleMesh.h"
-#include "core/stitch/CellGrid.h"
-#include "core/stitch/CellSet.h"
+#include "core/stitch/TriangleBlocks.h"
 
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <vector>
 
 namespace hybridtree
 {
 
-/// The triangles of a mesh by the bricks of a grid in which their boxes lie.
-class TriangleBricks
+/// The triangles at each point of a mesh.
+class PointTriangles
 {
 public:
-  TriangleBricks(const TriangleMesh& mesh, const CellGrid& grid);
+  /// \pre indices are in range.
+  explicit PointTriangles(const TriangleMesh& mesh);
 
-  const CellGrid& grid() const { return grid_; }
+  std::int32_t count(std::int32_t point) const { return begin_[point + 1] - begin_[point]; }
 
-  /// Triangles whose boxes may touch one of the cells' bricks; rising.
-  std::vector<std::int32_t> near(const CellSet& cells) const;
+  /// count() numbers, rising.
+  const std::int32_t* of(std::int32_t point) const { return &triangles_[begin_[point]]; }
 
-  /// Triangles whose boxes may touch the brick of one of these points; rising.
-  std::vector<std::int32_t> near(const std::vector<Vec3>& points) const;
+  /// Points without a triangle, rising.
+  const std::vector<std::int32_t>& unused() const { return unused_; }
 
 private:
-  struct Blocks;
-
-  std::vector<Blocks> blocksOf(const TriangleMesh& mesh) const;
-  std::vector<std::int32_t> inBlocks(std::vector<Index3> bricks) const;
-  std::int64_t number(const Index3& block) const;
-  Index3 blockOf(const Index3& brick) const;
-  Index3 blockAt(const Vec3& point, double slack) const;
-
-  CellGrid grid_;
-  std::int64_t bricksPerBlock_ = 1; ///< along each axis; more than 1 where bricks are too many
-  Index3 first_{};                  ///< blocks
-  Index3 size_{};
-  std::vector<std::int32_t> begin_; ///< per block, and the end: in triangles_
+  std::vector<std::int32_t> begin_; ///< per point, and the end: in triangles_
   std::vector<std::int32_t> triangles_;
-  std::vector<std::int32_t> large_; ///< in too many blocks to list
+  std::vector<std::int32_t> unused_;
 };
 
 /// What there is to know of a mesh of which parts are kept. Each is found at the first question.
@@ -60,21 +49,19 @@ public:
   double area() const;
   Box3 bounds() const;
 
-  /// Per point: how many triangles it has.
-  const std::vector<std::int32_t>& valence() const;
+  /// The triangles at each point.
+  const PointTriangles& pointTriangles() const;
 
-  /// The last one asked for is kept.
-  std::shared_ptr<const TriangleBricks> bricks(const CellGrid& grid) const;
+  const TriangleBlocks& blocks() const;
 
 private:
   const TriangleMesh& mesh_;
-  mutable std::once_flag soundOnce_, areaOnce_, boundsOnce_, valenceOnce_;
+  mutable std::once_flag soundOnce_, areaOnce_, boundsOnce_, trianglesOnce_, blocksOnce_;
   mutable bool sound_ = false;
   mutable double area_ = 0.0;
   mutable Box3 bounds_;
-  mutable std::vector<std::int32_t> valence_;
-  mutable std::mutex mutex_;
-  mutable std::shared_ptr<const TriangleBricks> bricks_;
+  mutable std::optional<PointTriangles> triangles_;
+  mutable std::optional<TriangleBlocks> blocks_;
 };
 
 } // namespace hybridtree

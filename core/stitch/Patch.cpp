@@ -9,7 +9,7 @@
 #include "core/stitch/PatchVertices.h"
 
 #include <algorithm>
-#include <unordered_set>
+#include <unordered_map>
 
 namespace hybridtree
 {
@@ -49,7 +49,7 @@ public:
     for (const BorderSegment& segment : border.segments)
     {
       segments_[segment.cell].push_back(segment);
-      busy_.insert(segment.cell);
+      this->markBusy(segment.cell);
     }
     for (const BorderCrossing& crossing : border.crossings)
     {
@@ -59,7 +59,7 @@ public:
         Index3 cell = crossing.low;
         cell[(crossing.axis + 1) % 3] -= n & 1;
         cell[(crossing.axis + 2) % 3] -= n >> 1;
-        busy_.insert(cell);
+        this->markBusy(cell);
       }
     }
   }
@@ -91,6 +91,14 @@ private:
       lattice.high[axis] += 1;
     }
     return lattice;
+  }
+
+  void markBusy(const Index3& cell)
+  {
+    if (const PatchBricks::Place place = bricks_.locate(cell); place.brick)
+    {
+      place.brick->busy[place.z] |= std::uint64_t(1) << (kBrickSide * place.y + place.x);
+    }
   }
 
   void noteMisfits(const std::vector<Index3>& cells)
@@ -153,7 +161,7 @@ private:
         const int n = PatchBrick::lowestBit(word);
         const std::array<int, 3> cell{ n % kBrickSide, n / kBrickSide, z };
         const unsigned signs = this->caseOf(brick, cell);
-        const bool hasLine = busy_.count(PatchMaker::indexOf(brick, cell)) != 0;
+        const bool hasLine = (brick.busy[z] & word & (~word + 1)) != 0;
         if ((signs == 0 || signs == 0xff) && !hasLine)
         {
           continue; // no surface
@@ -186,6 +194,18 @@ private:
   /// No edge of the cell is on the border.
   bool isInner(const PatchBrick& brick, const std::array<int, 3>& cell)
   {
+    if (std::max({ cell[0], cell[1], cell[2] }) < kBrickSide - 1)
+    {
+      // Corners at which the cell's edges along x, y and z begin.
+      constexpr unsigned kBegin[3] = { 0x55, 0x33, 0x0f };
+      bool inner = true;
+      for (unsigned axis = 0; axis < 3; ++axis)
+      {
+        const unsigned known = PatchBrick::corners(brick.inner[axis], cell[0], cell[1], cell[2]);
+        inner = inner && (known & kBegin[axis]) == kBegin[axis];
+      }
+      return inner;
+    }
     for (unsigned edge = 0; edge < 12; ++edge)
     {
       const std::array<int, 3> low = lowOf(cell, edge);
@@ -200,6 +220,10 @@ private:
 
   unsigned caseOf(const PatchBrick& brick, const std::array<int, 3>& cell)
   {
+    if (std::max({ cell[0], cell[1], cell[2] }) < kBrickSide - 1)
+    {
+      return PatchBrick::corners(brick.inside, cell[0], cell[1], cell[2]);
+    }
     unsigned signs = 0;
     for (unsigned corner = 0; corner < 8; ++corner)
     {
@@ -419,7 +443,6 @@ private:
   BorderCrossings crossings_;
   std::unordered_map<Index3, std::vector<BorderSegment>, Index3Hash> segments_;
   std::unordered_map<std::int32_t, LatticeEdge> facesOf_;
-  std::unordered_set<Index3, Index3Hash> busy_; ///< cells that the line from outside touches
   Patch patch_;
 };
 

@@ -16,6 +16,7 @@ struct PatchBrick
   BrickBits points{}; ///< corners of marked cells, which may be those of other bricks
   BrickBits border{}; ///< of these, those that are also corners of cells that are not marked
   BrickBits inside{}; ///< sides of the points
+  BrickBits busy{};   ///< cells that the line from outside touches
   std::array<BrickBits, 3> edges{};   ///< [axis]: from a point, an edge of a marked cell
   std::array<BrickBits, 3> inner{};   ///< of these, those all of whose four cells are marked
   std::array<BrickBits, 3> crossed{}; ///< of the inner ones, those that have a vertex
@@ -30,6 +31,18 @@ struct PatchBrick
   static bool has(const BrickBits& bits, int x, int y, int z)
   {
     return (bits[z] >> (kBrickSide * y + x) & 1u) != 0;
+  }
+  /// Those of the 8 corners of a cell that are set, as the case of marching cubes has them. \pre x,
+  /// y and z are less than 7.
+  static unsigned corners(const BrickBits& bits, int x, int y, int z)
+  {
+    const auto square = [=](std::uint64_t word)
+    {
+      word >>= kBrickSide * y + x;
+      return static_cast<unsigned>(word & 3u) |
+        static_cast<unsigned>(word >> (kBrickSide - 2) & 12u);
+    };
+    return square(bits[z]) | square(bits[z + 1]) << 4;
   }
   /// Number of the lowest bit of a word that is not 0.
   static int lowestBit(std::uint64_t word);

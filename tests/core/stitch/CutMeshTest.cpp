@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/stitch/CutMesh.h"
-#include "core/stitch/KeptMesh.h"
+#include "core/stitch/TriangleBlocks.h"
 
 #include "tests/support/Random.h"
 #include "tests/support/TestMeshes.h"
@@ -38,7 +38,7 @@ CellSet randomCells(Random& random, int reach, double share)
 
 CutMesh cutAll(const TriangleMesh& mesh, const CellSet& cells, const CellGrid& grid)
 {
-  return cutMesh(mesh, TriangleBricks(mesh, grid).near(cells), cells, grid);
+  return cutMesh(mesh, TriangleBlocks(mesh).near(cells.boxes(grid, 1e-6)), cells, grid);
 }
 
 std::vector<std::int32_t> keptTriangles(const TriangleMesh& mesh, const CutMesh& cut)
