@@ -2,6 +2,7 @@
 #include "core/convolution/BlendGroups.h"
 
 #include <algorithm>
+#include <array>
 
 namespace hybridtree
 {
@@ -9,8 +10,8 @@ namespace
 {
 
 // Kept between queries: there may be far more groups than one query meets.
-thread_local std::vector<std::int32_t> numbers;
-thread_local std::vector<std::int32_t> met;
+thread_local std::array<std::vector<std::int32_t>, 2> numbers;
+thread_local std::array<std::vector<std::int32_t>, 2> met;
 
 } // namespace
 
@@ -20,7 +21,7 @@ bool BlendGroups::areNeighbours(std::int32_t a, std::int32_t b) const
   return std::binary_search(others.begin(), others.end(), b);
 }
 
-GroupNumbers::GroupNumbers(std::size_t groups) : numbers_(numbers), groups_(met)
+GroupNumbers::GroupNumbers(std::size_t groups, Use use) : numbers_(numbers[use]), groups_(met[use])
 {
   groups_.clear();
   if (numbers_.size() < groups)
@@ -46,11 +47,6 @@ std::size_t GroupNumbers::add(std::int32_t group)
     groups_.push_back(group);
   }
   return static_cast<std::size_t>(number);
-}
-
-std::int32_t GroupNumbers::find(std::int32_t group) const
-{
-  return numbers_[static_cast<std::size_t>(group)];
 }
 
 } // namespace hybridtree

@@ -26,11 +26,18 @@ struct BlendGroups
   }
 };
 
-/// Numbers for some of many groups, in the order in which they are met. One at a time in a thread.
+/// Numbers for some of many groups, in the order in which they are met. In a thread one at a time
+/// of each use.
 class GroupNumbers
 {
 public:
-  explicit GroupNumbers(std::size_t groups);
+  enum Use
+  {
+    kReaching,
+    kCenters
+  };
+
+  explicit GroupNumbers(std::size_t groups, Use use = kReaching);
   ~GroupNumbers();
   GroupNumbers(const GroupNumbers&) = delete;
   GroupNumbers& operator=(const GroupNumbers&) = delete;
@@ -39,7 +46,7 @@ public:
   /// The number of the group, a new one if it has none.
   std::size_t add(std::int32_t group);
   /// -1 for none.
-  std::int32_t find(std::int32_t group) const;
+  std::int32_t find(std::int32_t group) const { return numbers_[static_cast<std::size_t>(group)]; }
   std::int32_t group(std::size_t number) const { return groups_[number]; }
 
 private:

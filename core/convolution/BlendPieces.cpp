@@ -21,14 +21,15 @@ void makeUnique(std::vector<std::int32_t>& list)
   list.erase(std::unique(list.begin(), list.end()), list.end());
 }
 
-constexpr double kPieceLength = 0.5; // in units of R
-constexpr int kMostParts = 1024;     // of a segment
-constexpr int kMostSides = 32;       // parts of a triangle's edge
+// In units of R. Middles of pieces are then half of R apart, in segments as in triangles.
+constexpr double kPieceLength = 0.5;
+constexpr double kPieceSide = 0.85;
+constexpr int kMostParts = 1024; // of a segment
+constexpr int kMostSides = 32;   // parts of a triangle's edge
 
-int partsOf(double length, double reach, int most)
+int partsOf(double length, double longest, int most)
 {
-  return static_cast<int>(
-    std::clamp(std::ceil(length / (kPieceLength * reach)), 1.0, double(most)));
+  return static_cast<int>(std::clamp(std::ceil(length / longest), 1.0, double(most)));
 }
 
 // What the corners of an element have, weighted.
@@ -242,8 +243,8 @@ void cut(const GroupedElements& elements, const GroupedElement<2>& segment, cons
   BlendPieces& pieces)
 {
   const std::array<Vec3, 2> ends = cornersOf(elements, segment);
-  const int parts = partsOf(
-    (ends[1] - ends[0]).norm(), std::min(segment.reaches[0], segment.reaches[1]), kMostParts);
+  const int parts = partsOf((ends[1] - ends[0]).norm(),
+    kPieceLength * std::min(segment.reaches[0], segment.reaches[1]), kMostParts);
   const auto at = [&](double u) { return Weighted<2>{ { 1.0 - u, u } }; };
   for (int k = 0; k < parts; ++k)
   {
@@ -265,8 +266,8 @@ void cut(const GroupedElements& elements, const GroupedElement<3>& triangle, con
   {
     longest = std::max(longest, (corners[(k + 1) % 3] - corners[k]).norm());
   }
-  const int sides = partsOf(
-    longest, *std::min_element(triangle.reaches.begin(), triangle.reaches.end()), kMostSides);
+  const int sides = partsOf(longest,
+    kPieceSide * *std::min_element(triangle.reaches.begin(), triangle.reaches.end()), kMostSides);
   const auto at = [&](double i, double j) {
     return Weighted<3>{ { 1.0 - (i + j) / sides, i / sides, j / sides } };
   };

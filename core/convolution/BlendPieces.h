@@ -8,7 +8,7 @@
 namespace hybridtree
 {
 
-/// The elements again, cut into pieces of about half of R, each of which is at one distance from
+/// The elements again, cut into pieces about half of R apart, each of which is at one distance from
 /// every other group: together with the kernels they tell where on the skeleton a point is.
 struct BlendPieces
 {

@@ -9,144 +9,159 @@ namespace hybridtree
 namespace
 {
 
+// What is kept between queries: no allocation once warm.
+struct Workspace
+{
+  std::vector<std::size_t> segmentGroups; // numbers, per element of the selection
+  std::vector<std::size_t> triangleGroups;
+  std::vector<double> farthest;    // per pair of numbers
+  std::vector<std::size_t> units;  // per number
+  std::vector<std::size_t> groups; // per unit one of its numbers
+  std::vector<const SegmentElement*> segments;
+  std::vector<const TriangleElement*> triangles;
+};
+
 // Finds the units of a selection.
 class Finder
 {
 public:
-  Finder(const BlendGroups& field, BlendSelection& selection)
+  Finder(const BlendGroups& field, BlendSelection& selection, Workspace& work)
     : field_(field)
     , begin_(BlendShare(field.control).begin())
     , selection_(selection)
+    , work_(work)
     , numbers_(field.size())
   {
+    work.segmentGroups.clear();
+    work.triangleGroups.clear();
     for (const SegmentElement* segment : selection.all.segments)
     {
-      segmentGroups_.push_back(numbers_.add(field.segmentGroups[field.whole.index(segment)]));
+      work.segmentGroups.push_back(numbers_.add(field.segmentGroups[field.whole.index(segment)]));
     }
     for (const TriangleElement* triangle : selection.all.triangles)
     {
-      triangleGroups_.push_back(numbers_.add(field.triangleGroups[field.whole.index(triangle)]));
+      work.triangleGroups.push_back(
+        numbers_.add(field.triangleGroups[field.whole.index(triangle)]));
     }
   }
 
   void find()
   {
-    this->numberUnits();
-    if (selection_.units.empty())
+    if (!this->findDistances())
     {
       return;
     }
     selection_.isControlled = true;
-    this->sortElements(segmentGroups_, selection_.all.segments, &BlendSelection::Unit::segmentsEnd);
-    this->sortElements(
-      triangleGroups_, selection_.all.triangles, &BlendSelection::Unit::trianglesEnd);
+    this->numberUnits();
     this->findPairs();
+    this->sortElements(work_.segmentGroups, selection_.all.segments, work_.segments,
+      &BlendSelection::Unit::segmentsEnd);
+    this->sortElements(work_.triangleGroups, selection_.all.triangles, work_.triangles,
+      &BlendSelection::Unit::trianglesEnd);
   }
 
 private:
-  const std::vector<GroupDistance>& farthest(std::size_t number) const
-  {
-    return field_.places.farthest[static_cast<std::size_t>(numbers_.group(number))];
-  }
-
-  // Single units are the groups with another in reach that they may be apart from. The rest of the
-  // groups is unit 0.
-  void numberUnits()
+  // Marks the groups with another in reach that they may be apart from as single units: 1, others
+  // 0. Returns whether there are any.
+  bool findDistances()
   {
     const std::size_t count = numbers_.size();
-    units_.assign(count, 0);
+    work_.farthest.assign(count * count, 0.0);
+    work_.units.assign(count, 0);
+    bool areApart = false;
     for (std::size_t k = 0; k < count; ++k)
     {
-      for (const GroupDistance& other : this->farthest(k))
+      for (const GroupDistance& other :
+        field_.places.farthest[static_cast<std::size_t>(numbers_.group(k))])
       {
-        const std::int32_t number = other.distance > begin_ ? numbers_.find(other.group) : -1;
-        if (number >= 0)
+        const std::int32_t number = numbers_.find(other.group);
+        if (number < 0)
         {
-          units_[k] = units_[static_cast<std::size_t>(number)] = 1;
+          continue;
+        }
+        const auto at = static_cast<std::size_t>(number);
+        work_.farthest[count * k + at] = other.distance;
+        if (other.distance > begin_)
+        {
+          work_.units[k] = work_.units[at] = 1;
+          areApart = true;
         }
       }
     }
-    const auto singles = static_cast<std::size_t>(std::count(units_.begin(), units_.end(), 1));
-    if (singles == 0)
+    return areApart;
+  }
+
+  // All groups that are not single are unit 0.
+  void numberUnits()
+  {
+    const auto singles = std::count(work_.units.begin(), work_.units.end(), 1);
+    selection_.hasRest = static_cast<std::size_t>(singles) < numbers_.size();
+    work_.groups.assign(selection_.hasRest ? 1 : 0, 0);
+    for (std::size_t k = 0; k < numbers_.size(); ++k)
     {
-      return;
+      if (work_.units[k] == 1)
+      {
+        work_.units[k] = work_.groups.size();
+        work_.groups.push_back(k);
+      }
     }
-    selection_.hasRest = singles < count;
-    std::size_t next = selection_.hasRest ? 1 : 0;
-    for (std::size_t& unit : units_)
+    selection_.units.assign(work_.groups.size(), { 0, 0 });
+  }
+
+  void findPairs()
+  {
+    const std::size_t groups = numbers_.size();
+    const std::size_t units = selection_.units.size();
+    selection_.farthest.assign(units * units, 0.0);
+    for (std::size_t a = 0; a < groups; ++a)
     {
-      unit = unit == 1 ? next++ : 0;
+      for (std::size_t b = 0; b < groups; ++b)
+      {
+        double& most = selection_.farthest[units * work_.units[a] + work_.units[b]];
+        most = std::max(most, work_.farthest[groups * a + b]);
+      }
     }
-    selection_.units.assign(next, { 0, 0 });
+    for (std::size_t a = selection_.hasRest ? 1 : 0; a < units; ++a)
+    {
+      for (std::size_t b = a + 1; b < units; ++b)
+      {
+        if (std::max(selection_.farthest[units * a + b], selection_.farthest[units * b + a]) >
+          begin_)
+        {
+          const auto group = [&](std::size_t unit) { return numbers_.group(work_.groups[unit]); };
+          selection_.apart.push_back({ a, b, field_.areNeighbours(group(a), group(b)) });
+        }
+      }
+    }
   }
 
   // By units, in order within each.
   template <class Element>
   void sortElements(const std::vector<std::size_t>& groups, std::vector<const Element*>& elements,
-    std::size_t BlendSelection::Unit::*end)
+    std::vector<const Element*>& sorted, std::size_t BlendSelection::Unit::*end)
   {
     std::vector<BlendSelection::Unit>& units = selection_.units;
     for (const std::size_t group : groups)
     {
-      ++(units[units_[group]].*end);
+      ++(units[work_.units[group]].*end);
     }
     std::size_t begin = 0;
     for (BlendSelection::Unit& unit : units)
     {
       begin += std::exchange(unit.*end, begin);
     }
-    static thread_local std::vector<const Element*> sorted;
-    sorted.resize(elements.size());
-    for (std::size_t k = 0; k < elements.size(); ++k)
+    sorted.assign(elements.begin(), elements.end());
+    for (std::size_t k = 0; k < sorted.size(); ++k)
     {
-      sorted[(units[units_[groups[k]]].*end)++] = elements[k];
-    }
-    elements.swap(sorted);
-  }
-
-  void findPairs()
-  {
-    const std::size_t count = selection_.units.size();
-    selection_.farthest.assign(count * count, 0.0);
-    for (std::size_t k = 0; k < numbers_.size(); ++k)
-    {
-      for (const GroupDistance& other : this->farthest(k))
-      {
-        const std::int32_t number = numbers_.find(other.group);
-        if (number >= 0)
-        {
-          double& most =
-            selection_.farthest[count * units_[k] + units_[static_cast<std::size_t>(number)]];
-          most = std::max(most, other.distance);
-        }
-      }
-    }
-    std::vector<std::size_t> groups(count);
-    for (std::size_t k = 0; k < units_.size(); ++k)
-    {
-      groups[units_[k]] = k;
-    }
-    for (std::size_t a = selection_.hasRest ? 1 : 0; a < count; ++a)
-    {
-      for (std::size_t b = a + 1; b < count; ++b)
-      {
-        if (std::max(selection_.farthest[count * a + b], selection_.farthest[count * b + a]) >
-          begin_)
-        {
-          selection_.apart.push_back(
-            { a, b, field_.areNeighbours(numbers_.group(groups[a]), numbers_.group(groups[b])) });
-        }
-      }
+      elements[(units[work_.units[groups[k]]].*end)++] = sorted[k];
     }
   }
 
   const BlendGroups& field_;
   double begin_;
   BlendSelection& selection_;
+  Workspace& work_;
   GroupNumbers numbers_;
-  std::vector<std::size_t> segmentGroups_; // numbers, per element of the selection
-  std::vector<std::size_t> triangleGroups_;
-  std::vector<std::size_t> units_; // per number
 };
 
 } // namespace
@@ -162,7 +177,8 @@ void selectBlends(const BlendGroups& groups, BlendSelection& selection)
   }
   if (groups.isLocal())
   {
-    Finder(groups, selection).find();
+    static thread_local Workspace work;
+    Finder(groups, selection, work).find();
   }
   else
   {

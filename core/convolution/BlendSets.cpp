@@ -2,80 +2,132 @@
 #include "core/convolution/BlendSets.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace hybridtree
 {
-
-BlendSets::BlendSets(const PiecesNear& pieces, const std::vector<double>& bounds)
+namespace
 {
-  const BlendGroups& groups = pieces.groups();
-  const bool isPaper = groups.control.kind == BlendingKind::Paper;
-  std::vector<std::int32_t> centers;
-  for (std::size_t number = 0; number < bounds.size(); ++number)
+
+// Per center i the members of its sum, as bits.
+class Candidates
+{
+public:
+  Candidates(const PiecesNear& pieces, const std::vector<double>& bounds)
+    : groups_(pieces.groups())
+    , isPaper_(groups_.control.kind == BlendingKind::Paper)
+    , words_((bounds.size() + 63) / 64)
+    , centers_(groups_.size(), GroupNumbers::kCenters)
   {
-    if (bounds[number] > 0.0)
+    for (std::size_t number = 0; number < bounds.size(); ++number)
     {
-      const std::int32_t group = pieces.group(number);
-      centers.push_back(group);
-      if (!isPaper)
+      if (bounds[number] > 0.0)
       {
-        const auto& others = groups.places.neighbours[static_cast<std::size_t>(group)];
-        centers.insert(centers.end(), others.begin(), others.end());
+        this->addCenter(pieces.group(number));
+      }
+    }
+    // As [SUB]: i has a field itself.
+    isClosed_ = isPaper_;
+    for (std::size_t number = 0; number < bounds.size(); ++number)
+    {
+      if (bounds[number] > 0.0)
+      {
+        this->addMember(pieces.group(number), number, bounds[number]);
       }
     }
   }
-  std::sort(centers.begin(), centers.end());
-  centers.erase(std::unique(centers.begin(), centers.end()), centers.end());
-  for (const std::int32_t group : centers)
-  {
-    this->add(pieces, bounds, group);
-  }
-  const auto at = [&](std::size_t k) { return members_.begin() + std::ptrdiff_t(k); };
-  std::sort(order_.begin(), order_.end(),
-    [&](const Range& a, const Range& b)
-    {
-      return a.bound != b.bound
-        ? a.bound > b.bound
-        : std::lexicographical_compare(at(a.begin), at(a.end), at(b.begin), at(b.end));
-    });
-  if (!isPaper)
-  {
-    order_.erase(std::unique(order_.begin(), order_.end(),
-                   [&](const Range& a, const Range& b)
-                   { return std::equal(at(a.begin), at(a.end), at(b.begin), at(b.end)); }),
-      order_.end());
-  }
-}
 
-void BlendSets::add(const PiecesNear& pieces, const std::vector<double>& bounds, std::int32_t group)
-{
-  Range range{ members_.size(), 0, 0, 0.0 };
-  const auto addMember = [&](std::int32_t member)
+  std::size_t size() const { return bounds_.size(); }
+  double bound(std::size_t center) const { return bounds_[center]; }
+  std::int32_t group(std::size_t center) const { return centers_.group(center); }
+  const std::uint64_t* bits(std::size_t center) const { return bits_.data() + center * words_; }
+  std::size_t words() const { return words_; }
+
+private:
+  void addCenter(std::int32_t group)
   {
-    const std::int32_t number = pieces.find(member);
-    if (number >= 0 && bounds[static_cast<std::size_t>(number)] > 0.0)
+    if (centers_.add(group) == bounds_.size())
     {
-      members_.push_back(static_cast<std::size_t>(number));
+      bounds_.push_back(0.0);
+      bits_.resize(bits_.size() + words_, 0);
     }
-  };
-  addMember(group);
-  range.center = members_.size() > range.begin ? members_.back() : 0;
-  for (const std::int32_t other :
-    pieces.groups().places.neighbours[static_cast<std::size_t>(group)])
-  {
-    addMember(other);
   }
-  const auto begin = members_.begin() + std::ptrdiff_t(range.begin);
-  std::sort(begin, members_.end());
-  // One order for all sets, so equal sets have equal bounds.
-  std::for_each(begin, members_.end(), [&](std::size_t number) { range.bound += bounds[number]; });
-  range.end = members_.size();
-  order_.push_back(range);
+
+  void addMember(std::int32_t group, std::size_t number, double bound)
+  {
+    const auto add = [&](std::int32_t center)
+    {
+      if (!isClosed_)
+      {
+        this->addCenter(center);
+      }
+      const std::int32_t at = centers_.find(center);
+      if (at >= 0)
+      {
+        // Members ascend in all sets, so equal sets have equal bounds.
+        bounds_[static_cast<std::size_t>(at)] += bound;
+        bits_[static_cast<std::size_t>(at) * words_ + number / 64] |= std::uint64_t(1)
+          << (number % 64);
+      }
+    };
+    add(group);
+    const auto& others = groups_.places.neighbours[static_cast<std::size_t>(group)];
+    std::for_each(others.begin(), others.end(), add);
+  }
+
+  const BlendGroups& groups_;
+  bool isPaper_;
+  bool isClosed_ = false;
+  std::size_t words_;
+  GroupNumbers centers_;
+  std::vector<double> bounds_;
+  std::vector<std::uint64_t> bits_;
+};
+
+} // namespace
+
+BlendSets::BlendSets(const PiecesNear& pieces, const std::vector<double>& bounds)
+{
+  const Candidates candidates(pieces, bounds);
+  const std::size_t words = candidates.words();
+  std::vector<std::size_t> order(candidates.size());
+  std::iota(order.begin(), order.end(), std::size_t(0));
+  std::sort(order.begin(), order.end(),
+    [&](std::size_t a, std::size_t b)
+    {
+      return candidates.bound(a) != candidates.bound(b)
+        ? candidates.bound(a) > candidates.bound(b)
+        : std::lexicographical_compare(candidates.bits(a), candidates.bits(a) + words,
+            candidates.bits(b), candidates.bits(b) + words);
+    });
+  if (pieces.groups().control.kind != BlendingKind::Paper)
+  {
+    order.erase(
+      std::unique(order.begin(), order.end(),
+        [&](std::size_t a, std::size_t b)
+        { return std::equal(candidates.bits(a), candidates.bits(a) + words, candidates.bits(b)); }),
+      order.end());
+  }
+  for (const std::size_t candidate : order)
+  {
+    const std::int32_t center = pieces.find(candidates.group(candidate));
+    Range range{ members_.size(), 0, center < 0 ? 0 : static_cast<std::size_t>(center),
+      candidates.bound(candidate) };
+    for (std::size_t number = 0; number < bounds.size(); ++number)
+    {
+      if (candidates.bits(candidate)[number / 64] >> (number % 64) & 1)
+      {
+        members_.push_back(number);
+      }
+    }
+    range.end = members_.size();
+    ranges_.push_back(range);
+  }
 }
 
 BlendSets::Set BlendSets::operator[](std::size_t k) const
 {
-  const Range& range = order_[k];
+  const Range& range = ranges_[k];
   return { members_.data() + range.begin, members_.data() + range.end, range.center, range.bound };
 }
 

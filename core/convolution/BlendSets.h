@@ -22,21 +22,19 @@ public:
   /// \param bounds per number: of its field at any of the points. Groups with 0 are in no set.
   BlendSets(const PiecesNear& pieces, const std::vector<double>& bounds);
 
-  std::size_t size() const { return order_.size(); }
+  std::size_t size() const { return ranges_.size(); }
   Set operator[](std::size_t k) const;
 
 private:
   struct Range
   {
-    std::size_t begin, end;
+    std::size_t begin, end; // of members_
     std::size_t center;
     double bound;
   };
 
-  void add(const PiecesNear& pieces, const std::vector<double>& bounds, std::int32_t group);
-
   std::vector<std::size_t> members_;
-  std::vector<Range> order_;
+  std::vector<Range> ranges_;
 };
 
 } // namespace hybridtree

@@ -25,6 +25,7 @@ public:
     , selection_(selection)
     , points_(points)
     , own_(selection.units.size() * points.size)
+    , isReached_(selection.units.size())
   {
   }
 
@@ -50,10 +51,14 @@ public:
       {
         field_.addField(elements, points_, this->own(unit));
       }
+      double most = 0.0;
+      const double* own = this->own(unit);
       for (std::size_t k = 0; k < points_.size; ++k)
       {
-        value[k] += this->own(unit)[k];
+        value[k] += own[k];
+        most = std::max(most, own[k]);
       }
+      isReached_[unit] = static_cast<char>(most > 0.0);
     }
   }
 
@@ -61,38 +66,51 @@ public:
   void findOpen(char* isOpen)
   {
     std::fill_n(isOpen, points_.size, char(0));
-    for (std::size_t unit = selection_.hasRest ? 1 : 0; unit < selection_.units.size(); ++unit)
-    {
-      this->findFar(unit, isOpen);
-    }
+    const std::size_t count = selection_.units.size();
+    std::vector<char> mayBeFar(count, 0);
     for (const BlendSelection::Pair& pair : selection_.apart)
     {
-      if (!pair.areNeighbours)
+      if (isReached_[pair.a] && isReached_[pair.b])
       {
-        this->findUnjoined(pair, isOpen);
+        mayBeFar[pair.a] |= static_cast<char>(this->farthest(pair.b, pair.a) > begin_);
+        mayBeFar[pair.b] |= static_cast<char>(this->farthest(pair.a, pair.b) > begin_);
+        if (!pair.areNeighbours)
+        {
+          this->findUnjoined(pair, isOpen);
+        }
+      }
+    }
+    for (std::size_t unit = 0; unit < count; ++unit)
+    {
+      if (mayBeFar[unit])
+      {
+        this->findFar(unit, isOpen);
       }
     }
   }
 
 private:
   double* own(std::size_t unit) { return own_.data() + unit * points_.size; }
+  double farthest(std::size_t a, std::size_t b) const
+  {
+    return selection_.farthest[a * selection_.units.size() + b];
+  }
 
   // D = sum of f_c d / sum of f_c > begin, with distances that are at least d.
   void findFar(std::size_t unit, char* isOpen)
   {
     ScratchArray excess(points_.size);
     const double* own = this->own(unit);
-    const std::size_t count = selection_.units.size();
     for (std::size_t k = 0; k < points_.size; ++k)
     {
       excess[k] = -begin_ * own[k];
     }
-    for (std::size_t other = 0; other < count; ++other)
+    for (std::size_t other = 0; other < selection_.units.size(); ++other)
     {
-      if (other != unit)
+      if (other != unit && isReached_[other])
       {
         const double* field = this->own(other);
-        const double weight = selection_.farthest[count * other + unit] - begin_;
+        const double weight = this->farthest(other, unit) - begin_;
         for (std::size_t k = 0; k < points_.size; ++k)
         {
           excess[k] += weight * field[k];
@@ -122,7 +140,8 @@ private:
   const ConvolutionField& field_;
   const BlendSelection& selection_;
   PointBatch points_;
-  ScratchArray own_; // per unit
+  ScratchArray own_;            // per unit
+  std::vector<char> isReached_; // per unit: any of the points
 };
 
 // As mixBlends(), of some points.
