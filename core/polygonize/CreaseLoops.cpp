@@ -2,6 +2,7 @@
 #include "core/polygonize/CreaseLoops.h"
 
 #include "core/base/Parallel.h"
+#include "core/polygonize/TriangleSides.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,19 +14,6 @@ namespace
 {
 
 constexpr std::size_t kGrain = 16384;
-
-/// A side of a triangle, which is known by its place among those looked at.
-struct Side
-{
-  std::int32_t from;
-  std::int32_t to;
-  std::int32_t triangle;
-};
-
-bool operator<(const Side& a, const Side& b)
-{
-  return std::make_pair(a.from, a.to) < std::make_pair(b.from, b.to);
-}
 
 class LoopFinder
 {
@@ -122,9 +110,9 @@ private:
     parent_.resize(end - begin);
     std::iota(parent_.begin(), parent_.end(), 0);
     this->collectSides(begin, end);
-    for (const Side& side : sides_)
+    for (const TriangleSide& side : sides_.all())
     {
-      if (const Side* twin = this->twinOf(side))
+      if (const TriangleSide* twin = sides_.twinOf(side))
       {
         parent_[this->rootOf(side.triangle - begin)] = this->rootOf(twin->triangle - begin);
       }
@@ -145,21 +133,9 @@ private:
     sides_.clear();
     for (std::size_t t = begin; t < end; ++t)
     {
-      const Triangle& c = mesh_.triangles[t];
-      for (int k = 0; k < 3; ++k)
-      {
-        sides_.push_back({ c[k], c[(k + 1) % 3], static_cast<std::int32_t>(t) });
-      }
+      sides_.add(mesh_, t);
     }
-    std::sort(sides_.begin(), sides_.end());
-  }
-
-  const Side* twinOf(const Side& side) const
-  {
-    const Side wanted{ side.to, side.from, 0 };
-    const auto found = std::lower_bound(sides_.begin(), sides_.end(), wanted);
-    return found != sides_.end() && found->from == side.to && found->to == side.from ? &*found
-                                                                                     : nullptr;
+    sides_.sort();
   }
 
   void addLoop(const Index3& cell, std::size_t begin, std::size_t end)
@@ -187,14 +163,14 @@ private:
   bool findRim(CreaseLoop& loop)
   {
     this->collectSides(loop.firstTriangle, loop.firstTriangle + loop.triangleCount);
-    std::vector<Side> rim; // by rising `from`, as the sides are
-    std::copy_if(sides_.begin(), sides_.end(), std::back_inserter(rim),
-      [&](const Side& side) { return !this->twinOf(side); });
+    std::vector<TriangleSide> rim; // by rising `from`, as the sides are
+    std::copy_if(sides_.all().begin(), sides_.all().end(), std::back_inserter(rim),
+      [&](const TriangleSide& side) { return !sides_.twinOf(side); });
     while (loop.corners.size() < rim.size())
     {
       const std::int32_t at = loop.corners.empty() ? rim.front().from : last_;
       const auto found = std::lower_bound(rim.begin(), rim.end(), at,
-        [](const Side& side, std::int32_t point) { return side.from < point; });
+        [](const TriangleSide& side, std::int32_t point) { return side.from < point; });
       const bool again = !loop.corners.empty() && at == loop.corners.front();
       if (again || found == rim.end() || found->from != at)
       {
@@ -211,7 +187,7 @@ private:
   const Lattice& lattice_;
   const double leastCosine_;
   std::vector<CreaseLoop> loops_;
-  std::vector<Side> sides_; ///< of the triangles at hand, sorted
+  TriangleSides sides_; ///< of the triangles at hand
   std::vector<std::size_t> parent_;
   std::int32_t last_ = 0;
 };

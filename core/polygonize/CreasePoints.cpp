@@ -4,6 +4,7 @@
 #include "core/base/Parallel.h"
 #include "core/base/Scratch.h"
 #include "core/polygonize/CreasePolygon.h"
+#include "core/polygonize/NearSurface.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,9 +28,7 @@ constexpr double kOnSurface = 1e-6;  // cells
 constexpr double kWorthIt = 2e-3;    // cells, that the point must be off the polygon's middle
 constexpr double kStraight = 0.1;    // cells, that the surface may be off the lines to the corners
 constexpr double kReach = 0.3;       // cells, in which the surface is looked for
-constexpr int kProbes = 6;           // to each side
-constexpr int kBisections = 18;
-constexpr double kMargin = 2.0; // cells around the polygons in which the field is asked
+constexpr double kMargin = 2.0;      // cells around the polygons in which the field is asked
 
 /// Search on one polygon.
 struct Search
@@ -173,48 +172,11 @@ private:
       search.alive = normal.norm() > 1e-3 && gain > kWorthIt * cell_;
       result.normal = normal.normalized();
       search.alive = search.alive &&
-        (std::abs(this->excessAt(search.point)) <= kOnSurface * cell_ * result.slope ||
-          this->moveToSurface(search.point, result.normal));
+        (std::abs(excessAt(field_, search.point)) <= kOnSurface * cell_ * result.slope ||
+          moveToSurface(field_, kReach * cell_, result.normal, search.point));
       result.point = search.point;
       search.alive = search.alive && search.polygon.beyondCell(search.point) <= kBeyondCell * cell_;
     }
-  }
-
-  /// f - T.
-  double excessAt(const Vec3& p) const
-  {
-    double value = 0.0;
-    field_.field({ &p.x(), &p.y(), &p.z(), 1 }, &value);
-    return value - kThreshold;
-  }
-  bool isInside(const Vec3& p) const { return this->excessAt(p) >= 0.0; }
-
-  /// To the nearest change of side along the normal.
-  bool moveToSurface(Vec3& point, const Vec3& normal) const
-  {
-    const bool inside = this->isInside(point);
-    double before = 0.0;
-    for (int probe = 1; probe <= kProbes; ++probe)
-    {
-      const double step = kReach * cell_ * std::pow(0.25, kProbes - probe);
-      for (const double way : { step, -step })
-      {
-        if (this->isInside(point + way * normal) != inside)
-        {
-          double low = std::copysign(before, way);
-          double high = way;
-          for (int k = 0; k < kBisections; ++k)
-          {
-            const double middle = 0.5 * (low + high);
-            (this->isInside(point + middle * normal) == inside ? low : high) = middle;
-          }
-          point += 0.5 * (low + high) * normal;
-          return true;
-        }
-      }
-      before = step;
-    }
-    return false;
   }
 
   /// The surface must run straight from the point to the corners.

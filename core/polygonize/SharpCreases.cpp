@@ -5,7 +5,9 @@
 #include "core/base/Scratch.h"
 #include "core/mesh/Crossings.h"
 #include "core/polygonize/CreaseLoops.h"
+#include "core/polygonize/CreaseNotches.h"
 #include "core/polygonize/CreasePoints.h"
+#include "core/polygonize/TriangleSides.h"
 
 #include <algorithm>
 #include <cmath>
@@ -52,6 +54,8 @@ public:
     , loops_(findCreaseLoops(mesh, first, lattice, std::cos(kLeastAngle), progress))
   {
   }
+
+  bool isBent() const { return !loops_.empty(); }
 
   std::size_t run()
   {
@@ -320,38 +324,9 @@ private:
   {
     std::vector<bool> removed(mesh_.triangles.size(), false);
     this->markRemoved(removed);
-    std::size_t kept = 0;
-    for (std::size_t t = 0; t < removed.size(); ++t)
-    {
-      if (!removed[t])
-      {
-        this->moveTriangle(t, kept++);
-      }
-    }
-    const std::size_t count = kept + made_.size();
-    mesh_.triangles.resize(kept);
     this->appendMade();
-    for (std::vector<std::int32_t>* array : { &mesh_.sourceLeaf, &mesh_.sourceTriangle })
-    {
-      if (!array->empty())
-      {
-        array->resize(kept);
-        array->resize(count, -1);
-      }
-    }
-    return this->keepPoints(kept);
-  }
-
-  void moveTriangle(std::size_t from, std::size_t to)
-  {
-    mesh_.triangles[to] = mesh_.triangles[from];
-    for (std::vector<std::int32_t>* array : { &mesh_.sourceLeaf, &mesh_.sourceTriangle })
-    {
-      if (!array->empty())
-      {
-        (*array)[to] = (*array)[from];
-      }
-    }
+    dropTriangles(mesh_, removed);
+    return this->keepPoints(mesh_.triangles.size() - made_.size());
   }
 
   /// Leaves out the points of polygons that are not sharpened.
@@ -397,7 +372,11 @@ private:
 std::size_t sharpenCreases(const FieldSource& field, const Lattice& lattice, std::size_t first,
   TriangleMesh& mesh, const Progress& progress)
 {
-  return Sharpener(field, lattice, first, mesh, progress).run();
+  Sharpener sharpener(field, lattice, first, mesh, progress);
+  const std::size_t points = sharpener.run();
+  return sharpener.isBent()
+    ? points + mendNotches(field, lattice.cellSize, std::cos(kLeastAngle), first, mesh, progress)
+    : points; // X
 }
 
 } // namespace hybridtree

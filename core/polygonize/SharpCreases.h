@@ -18,7 +18,8 @@ namespace hybridtree
 /// that crease (CreasePoints.h) and triangles around it; where two such polygons share an edge
 /// across the crease, it is flipped to run along the crease. No point moves. What turns a triangle
 /// over, or makes it cross another one, is taken back, polygon by polygon. So the mesh stays a
-/// closed 2-manifold that does not cross itself, if it was one.
+/// closed 2-manifold that does not cross itself, if it was one. Notches that are left after that,
+/// as where two creases cross a cell, are filled (CreaseNotches.h).
 ///
 /// A mesh without creases is left as it is, bit for bit, for the price of a look at its normals.
 /// The triangles of sharpened polygons go, and new ones come last, with sourceLeaf and

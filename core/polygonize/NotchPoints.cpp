@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/polygonize/NotchPoints.h"
+
+#include "core/base/Parallel.h"
+#include "core/base/Scratch.h"
+#include "core/polygonize/CreasePlanes.h"
+#include "core/polygonize/NearSurface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace hybridtree
+{
+namespace
+{
+
+// Shares of the way from the point to the corners at which the field is asked. A corner itself may
+// be on another crease.
+constexpr double kWays[] = { 0.7, 0.4, 0.2, 0.1, 0.02 };
+constexpr int kSteps = 5;
+constexpr int kShifting = 2; // the step after which it moves along the crease no more,
+constexpr int kJudging = 3;  // and the one until which it must look like a crease
+
+constexpr double kLeastAngle = 0.43; // 25 degrees, seen from near
+constexpr double kLeastShare = 0.5;  // of the first angle between the planes that is left there
+
+// In cells.
+constexpr double kFlat = 0.08; // first guess of the height of what need not be looked at
+constexpr double kLeastCrease = 0.2;
+constexpr double kLeastCurve = 0.3;
+constexpr double kFarthest = 2.0;
+constexpr double kOnSurface = 1e-6;
+constexpr double kReach = 0.3;       // in which the surface is looked for near a crease,
+constexpr double kRise = 2.0;        // and over a site without one
+constexpr double kLeastHeight = 0.1; // of the triangles around the point
+constexpr double kMargin = 4.0;
+constexpr double kGroup = 8.0; // side of the cubes whose sites are looked at together
+
+/// The sites of one task, which lie together.
+class NotchFinder
+{
+public:
+  NotchFinder(const FieldSource& field, double cell) : field_(field), cell_(cell) {}
+
+  void add(const NotchSite& site, NotchPoint& result) { sites_.push_back({ &site, &result, {} }); }
+
+  void run()
+  {
+    this->keepFar();
+    for (Search& search : sites_)
+    {
+      if (!this->findCrease(search))
+      {
+        this->rise(search);
+      }
+    }
+  }
+
+private:
+  struct Search
+  {
+    const NotchSite* site;
+    NotchPoint* result;
+    TouchingPlanes planes;
+  };
+
+  /// Leaves out those that are on the surface, nearly, by one question for all.
+  void keepFar()
+  {
+    std::vector<Vec3> middles;
+    for (const Search& search : sites_)
+    {
+      middles.push_back(search.site->middle());
+    }
+    const TouchingPlanes planes = this->planesAt(middles);
+    std::vector<Search> far;
+    for (std::size_t k = 0; k < sites_.size(); ++k)
+    {
+      sites_[k].result->off = std::abs(planes[k].ahead);
+      if (!(sites_[k].result->off < kFlat * cell_))
+      {
+        far.push_back(sites_[k]);
+      }
+    }
+    sites_ = std::move(far);
+  }
+
+  TouchingPlanes planesAt(const std::vector<Vec3>& points) const
+  {
+    ScratchVectors places(points.size()), gradients(points.size());
+    ScratchArray values(points.size());
+    for (std::size_t k = 0; k < points.size(); ++k)
+    {
+      places.batch().set(k, points[k]);
+    }
+    field_.fieldAndGradient(places.points(), values.data(), gradients.batch());
+    TouchingPlanes planes;
+    for (std::size_t k = 0; k < points.size(); ++k)
+    {
+      planes.push_back(TouchingPlane::of(points[k], values[k], gradients.points()[k]));
+    }
+    return planes;
+  }
+
+  bool findCrease(Search& search) const
+  {
+    const Vec3 middle = search.site->middle();
+    Vec3 point = middle;
+    Vec3 target = middle; // the point of the crease next to this is wanted
+    double wideAngle = 0.0;
+    for (int step = 0; step < kSteps; ++step)
+    {
+      search.planes = this->planesAround(*search.site, kWays[step], point);
+      const double angle = this->areNear(search.planes) ? widestAngle(search.planes) : 0.0;
+      wideAngle = step == 0 ? angle : wideAngle;
+      if (step <= kJudging && angle < std::max(kLeastAngle, kLeastShare * wideAngle))
+      {
+        return false;
+      }
+      const Meeting meeting = meetingOf(search.planes, target, kFarthest * cell_);
+      if (!meeting.found)
+      {
+        return false;
+      }
+      point = meeting.point;
+      if (step <= kShifting)
+      {
+        point += this->toUpright(*search.site, meeting) * meeting.edge;
+        target = point;
+      }
+    }
+    return this->settle(search, point);
+  }
+
+  TouchingPlanes planesAround(const NotchSite& site, double way, const Vec3& point) const
+  {
+    std::vector<Vec3> places;
+    for (int k = 0; k < site.count; k += site.isEdge() ? 2 : 1)
+    {
+      places.push_back(point + way * (site.rim[k] - point));
+    }
+    return this->planesAt(places);
+  }
+
+  /// How far along the crease to go to the next place from which no side of the rim is seen the
+  /// wrong way round; 0 where there is none.
+  double toUpright(const NotchSite& site, const Meeting& meeting) const
+  {
+    LinePart part{ -kFarthest * cell_, kFarthest * cell_ };
+    for (int k = 0; k < site.count; ++k)
+    {
+      const int next = (k + 1) % site.count;
+      const Vec3 up = site.normals[k] + site.normals[next];
+      const Vec3 inward = up.cross(site.rim[next] - site.rim[k]).normalized();
+      part.clip(
+        inward.dot(meeting.point - site.rim[k]) - kLeastHeight * cell_, inward.dot(meeting.edge));
+    }
+    return part.empty() || meeting.edge.isZero() ? 0.0 : part.nearest(0.0);
+  }
+
+  bool areNear(const TouchingPlanes& planes) const
+  {
+    return std::all_of(planes.begin(), planes.end(),
+      [&](const TouchingPlane& plane)
+      { return plane.normal.allFinite() && std::abs(plane.ahead) <= kFarthest * cell_; });
+  }
+
+  bool settle(const Search& search, Vec3 point) const
+  {
+    const Vec3 normal = middleNormal(search.planes, kLeastAngle).stableNormalized();
+    double slope = 0.0;
+    for (const TouchingPlane& plane : search.planes)
+    {
+      slope = std::max(slope, plane.slope);
+    }
+    const bool settled = std::abs(excessAt(field_, point)) <= kOnSurface * cell_ * slope ||
+      moveToSurface(field_, kReach * cell_, normal, point);
+    if (settled && !normal.isZero())
+    {
+      this->keep(search, point, normal, kLeastCrease * cell_);
+    }
+    return settled;
+  }
+
+  /// To the surface over the middle.
+  void rise(const Search& search) const
+  {
+    const Vec3 normal = search.site->middleNormal();
+    Vec3 point = search.site->middle();
+    if (!normal.isZero() && moveToSurface(field_, kRise * cell_, normal, point))
+    {
+      this->keep(search, point, normal, kLeastCurve * cell_);
+    }
+  }
+
+  /// What is inside is so by the surface that lies over it.
+  void keep(const Search& search, const Vec3& point, const Vec3& normal, double least) const
+  {
+    const Vec3 middle = search.site->middle();
+    const double height = search.site->distance(point);
+    const bool rises = normal.dot(point - middle) > 0.0;
+    if (height >= least && rises == (excessAt(field_, middle) >= 0.0))
+    {
+      *search.result = { search.result->off, height, point, normal };
+    }
+  }
+
+  const FieldSource& field_;
+  const double cell_;
+  std::vector<Search> sites_;
+};
+
+using Group = std::array<std::int64_t, 3>;
+
+Group groupOf(const NotchSite& site, double size)
+{
+  const Vec3 place = (site.middle() / size).array().floor();
+  return { std::int64_t(place.x()), std::int64_t(place.y()), std::int64_t(place.z()) };
+}
+
+} // namespace
+
+Vec3 NotchSite::middle() const
+{
+  return this->isEdge() ? Vec3(0.5 * (rim[0] + rim[2])) : Vec3((rim[0] + rim[1] + rim[2]) / 3.0);
+}
+
+Vec3 NotchSite::middleNormal() const
+{
+  const Vec3 sum = normals[0] + normals[2];
+  return (this->isEdge() ? sum : Vec3(sum + normals[1])).stableNormalized();
+}
+
+double NotchSite::distance(const Vec3& p) const
+{
+  const Vec3 along = rim[2] - rim[0];
+  if (this->isEdge())
+  {
+    const double length = along.squaredNorm();
+    const double share = length > 0.0 ? (p - rim[0]).dot(along) / length : 0.0;
+    return (rim[0] + std::clamp(share, 0.0, 1.0) * along - p).norm();
+  }
+  const Vec3 normal = along.cross(rim[1] - rim[0]).stableNormalized();
+  return std::abs(normal.dot(p - rim[0]));
+}
+
+std::vector<NotchPoint> findNotchPoints(const FieldSource& field, double cellSize,
+  const std::vector<NotchSite>& sites, const Progress& progress)
+{
+  std::vector<Group> groups;
+  groups.reserve(sites.size());
+  for (const NotchSite& site : sites)
+  {
+    groups.push_back(groupOf(site, kGroup * cellSize));
+  }
+  std::vector<std::size_t> order(sites.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+    [&](std::size_t a, std::size_t b) { return groups[a] < groups[b]; });
+  std::vector<std::size_t> begins; // of groups
+  for (std::size_t k = 0; k < order.size(); ++k)
+  {
+    if (k == 0 || groups[order[k]] != groups[order[k - 1]])
+    {
+      begins.push_back(k);
+    }
+  }
+  std::vector<NotchPoint> points(sites.size());
+  parallelFor(begins.size(), 1,
+    [&](std::size_t from, std::size_t to)
+    {
+      for (std::size_t g = from; g < to; ++g)
+      {
+        progress.check();
+        const std::size_t end = g + 1 < begins.size() ? begins[g + 1] : order.size();
+        Box3 box;
+        for (std::size_t k = begins[g]; k < end; ++k)
+        {
+          box.extend(sites[order[k]].middle());
+        }
+        const Vec3 margin = Vec3::Constant(kMargin * cellSize);
+        const FieldSourcePtr near =
+          field.restrictedTo(Box3(Vec3(box.min() - margin), Vec3(box.max() + margin)));
+        if (!near)
+        {
+          continue;
+        }
+        NotchFinder finder(*near, cellSize);
+        for (std::size_t k = begins[g]; k < end; ++k)
+        {
+          finder.add(sites[order[k]], points[order[k]]);
+        }
+        finder.run();
+      }
+    });
+  return points;
+}
+
+} // namespace hybridtree
