@@ -25,11 +25,12 @@ std::shared_ptr<const hybridtree::Skeleton> vtkHybridTreePolygon::MakeSkeleton()
   {
     points.emplace_back(point.data());
   }
-  return std::make_shared<hybridtree::PolygonSkeleton>(std::move(points));
+  return hybridtree::makePolygon(std::move(points), this->LevelOfDetail);
 }
 
 //------------------------------------------------------------------------------
 void vtkHybridTreePolygon::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  os << indent << "LevelOfDetail: " << this->LevelOfDetail << "\n";
 }

@@ -26,6 +26,16 @@ public:
   vtkTypeMacro(vtkHybridTreePolygon, vtkHybridTreePointsAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
+  ///@{
+  /**
+   * 0 (coarse) to 4 (exact, default). Level k leaves out corners as long as the outline moves by no
+   * more than 2, 1, 0.5 or 0.25 % of the diagonal of its bounds (k = 0 .. 3), so that the field is
+   * cheaper to evaluate.
+   */
+  vtkSetMacro(LevelOfDetail, int);
+  vtkGetMacro(LevelOfDetail, int);
+  ///@}
+
 protected:
   vtkHybridTreePolygon();
   ~vtkHybridTreePolygon() override;
@@ -33,6 +43,8 @@ protected:
 #ifndef __VTK_WRAP__
   std::shared_ptr<const hybridtree::Skeleton> MakeSkeleton() override;
 #endif
+
+  int LevelOfDetail = 4;
 
 private:
   vtkHybridTreePolygon(const vtkHybridTreePolygon&) = delete;

@@ -77,6 +77,13 @@ bool vtkHybridTreePolygonFromOutline::ReadOtherInputs(vtkInformationVector** inp
 //------------------------------------------------------------------------------
 std::shared_ptr<const hybridtree::Skeleton> vtkHybridTreePolygonFromOutline::MakeSkeleton()
 {
-  return std::make_shared<hybridtree::PolygonSkeleton>(
-    hybridtree::placesOf(outlineOf(this->Input), this->Input));
+  return hybridtree::makePolygon(
+    hybridtree::placesOf(outlineOf(this->Input), this->Input), this->LevelOfDetail);
+}
+
+//------------------------------------------------------------------------------
+void vtkHybridTreePolygonFromOutline::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "LevelOfDetail: " << this->LevelOfDetail << "\n";
 }

@@ -24,6 +24,17 @@ class HYBRIDTREEFILTERS_EXPORT vtkHybridTreePolygonFromOutline : public vtkHybri
 public:
   static vtkHybridTreePolygonFromOutline* New();
   vtkTypeMacro(vtkHybridTreePolygonFromOutline, vtkHybridTreeFieldAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * 0 (coarse) to 4 (exact, default). Level k leaves out corners as long as the outline moves by no
+   * more than 2, 1, 0.5 or 0.25 % of the diagonal of its bounds (k = 0 .. 3), so that the field is
+   * cheaper to evaluate.
+   */
+  vtkSetMacro(LevelOfDetail, int);
+  vtkGetMacro(LevelOfDetail, int);
+  ///@}
 
 protected:
   vtkHybridTreePolygonFromOutline();
@@ -36,6 +47,8 @@ protected:
 #endif
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
+
+  int LevelOfDetail = 4;
 
 private:
   vtkPolyData* Input = nullptr; ///< only during a run

@@ -2,6 +2,8 @@
 #include "core/skeletons/Polygon.h"
 
 #include "core/base/Error.h"
+#include "core/skeletons/SimplifyCurve.h"
+#include "core/skeletons/Spline.h"
 
 namespace hybridtree
 {
@@ -46,6 +48,25 @@ SkeletonPtr PolygonSkeleton::fromParameters(const Parameters& parameters)
     points.emplace_back(numbers[k], numbers[k + 1], numbers[k + 2]);
   }
   return std::make_shared<PolygonSkeleton>(std::move(points));
+}
+
+SkeletonPtr makePolygon(std::vector<Vec3> points, int levelOfDetail)
+{
+  auto full = std::make_shared<PolygonSkeleton>(points);
+  const SplineCurve outline = requireCurve({ std::move(points), {}, SplineKind::Polyline, true });
+  SplineCurve fewer = simplified(outline, detailTolerance(outline, levelOfDetail));
+  if (fewer.points.size() == outline.points.size())
+  {
+    return full;
+  }
+  try
+  {
+    return std::make_shared<PolygonSkeleton>(std::move(fewer.points));
+  }
+  catch (const InvalidParameter&)
+  {
+    return full;
+  }
 }
 
 } // namespace hybridtree

@@ -33,4 +33,9 @@ private:
   std::vector<Vec3> points_;
 };
 
+/// The polygon through fewer of its points, as SimplifyCurve.h has it of `levelOfDetail`. An
+/// outline that would then meet itself or have no area keeps them all. \throws InvalidParameter as
+/// PolygonSkeleton, and for a level that is none.
+SkeletonPtr makePolygon(std::vector<Vec3> points, int levelOfDetail);
+
 } // namespace hybridtree

@@ -29,8 +29,8 @@ NAMES = {
     "HybridTreeConeSphere": FIELD | {"Point1", "Point2", "Radius1", "Radius2"},
     "HybridTreeRectangle": FIELD | {"Origin", "Point1", "Point2"},
     "HybridTreeTriangle": FIELD | {"Point1", "Point2", "Point3"},
-    "HybridTreePolygon": FIELD | {"Points"},
-    "HybridTreePolygonFromOutline": FIELD | {"Input"},
+    "HybridTreePolygon": FIELD | {"Points", "LevelOfDetail"},
+    "HybridTreePolygonFromOutline": FIELD | {"Input", "LevelOfDetail"},
     "HybridTreeEllipsoid": FIELD | {"Center", "Radii", "Rotation"},
     "HybridTreeSpline": FIELD | {"Points", "Kind", "Closed", "LevelOfDetail"},
     "HybridTreeSurfaceOfRevolution": FIELD

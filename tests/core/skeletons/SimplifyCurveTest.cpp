@@ -2,8 +2,10 @@
 // Levels of detail: fewer points, and surfaces no farther apart than the level says.
 #include "core/skeletons/SimplifyCurve.h"
 
+#include "core/base/Error.h"
 #include "core/nodes/CurveTree.h"
 #include "core/nodes/Primitive.h"
+#include "core/skeletons/Polygon.h"
 #include "core/skeletons/Revolution.h"
 #include "core/skeletons/Spline.h"
 #include "tests/support/Random.h"
@@ -161,6 +163,49 @@ TEST(SimplifyCurve, SurfacesOfRevolutionStayWithinTheToleranceOfTheLevel)
       EXPECT_EQ(before, drawnProfile(full.shape()).size());
     }
   }
+}
+
+TEST(SimplifyCurve, PolygonsStayWithinTheToleranceOfTheLevel)
+{
+  std::vector<Vec3> corners;
+  for (int k = 0; k < 200; ++k)
+  {
+    const double turn = 2.0 * EIGEN_PI * k / 200.0;
+    const double wide = 1.0 + 0.3 * std::sin(5.0 * turn) + 0.002 * std::cos(71.0 * turn);
+    corners.emplace_back(wide * std::cos(turn), wide * std::sin(turn), 0.5);
+  }
+  const PolygonSkeleton full(corners);
+  std::size_t before = 0;
+  for (int level = 0; level <= kExactDetail; ++level)
+  {
+    const SkeletonPtr coarse = makePolygon(corners, level);
+    const std::size_t count = dynamic_cast<const PolygonSkeleton&>(*coarse).points().size();
+    EXPECT_GE(count, before);
+    before = count;
+    const double tolerance = detailTolerance(full.bounds(), level);
+    EXPECT_LE(meshDistance(*full.offsetMesh(0.05, 0.05), *coarse, 0.05), tolerance + 1e-12)
+      << level;
+    EXPECT_LE(meshDistance(*coarse->offsetMesh(0.05, 0.05), full, 0.05), tolerance + 1e-12)
+      << level;
+    if (level == 0)
+    {
+      EXPECT_LE(count, 40u);
+    }
+  }
+  EXPECT_EQ(before, corners.size());
+  EXPECT_THROW(makePolygon(corners, 5), InvalidParameter);
+}
+
+// A blade thinner than the tolerance would have no area left.
+TEST(SimplifyCurve, APolygonThatWouldVanishStaysAsItIs)
+{
+  const std::vector<Vec3> blade = { Vec3(0, 0, 0), Vec3(1, -0.001, 0), Vec3(2, 0, 0),
+    Vec3(1, 0.001, 0) };
+  const SkeletonPtr coarse = makePolygon(blade, 0);
+  const auto mesh = coarse->offsetMesh(0.05, 0.02);
+  ASSERT_TRUE(mesh);
+  EXPECT_LE(
+    meshDistance(*mesh, PolygonSkeleton(blade), 0.05), detailTolerance(coarse->bounds(), 0));
 }
 
 // Leaf by leaf: a blend of curves moves by more where it is flat.
