@@ -13,7 +13,7 @@
 //   LocalBlendBenchmark [threads, default 2] [rounds, default 5]
 //   LocalBlendBenchmark methods [threads] [rounds]
 //     the methods alone
-//   LocalBlendBenchmark pairs FILE
+//   LocalBlendBenchmark pairs FILE [pairs, default 1000] [rounds, default 5]
 //   LocalBlendBenchmark edits|global|node-based|primitive-based|automatic [threads] [rounds]
 //     one of them alone, for a profiler
 #include "benchmarks/support/BenchmarkMesh.h"
@@ -177,9 +177,10 @@ struct Edits
   std::vector<double> processorTimes;
 };
 
-Edits timesOfEdits(const NodePtr& scan, const TriangleMesh& mesh, double edge)
+/// \param parts of the mesh that is edited, which has been made.
+Edits timesOfEdits(
+  const NodePtr& scan, const TriangleMesh& mesh, const std::vector<NodePtr>& parts, double edge)
 {
-  const std::vector<NodePtr> parts = additions(mesh);
   Edits edits;
   for (int k = 0; k < 50; ++k)
   {
@@ -195,10 +196,10 @@ Edits timesOfEdits(const NodePtr& scan, const TriangleMesh& mesh, double edge)
   return edits;
 }
 
-void reportEdits(const NodePtr& scan, const TriangleMesh& mesh, double edge, double first,
-  double firstProcessor, double global)
+void reportEdits(const NodePtr& scan, const TriangleMesh& mesh, const std::vector<NodePtr>& parts,
+  double edge, double first, double firstProcessor, double global)
 {
-  const Edits edits = timesOfEdits(scan, mesh, edge);
+  const Edits edits = timesOfEdits(scan, mesh, parts, edge);
   const double middle = median(edits.times);
   const double slowest = *std::max_element(edits.times.begin(), edits.times.end());
   const double processor = median(edits.processorTimes);
@@ -224,9 +225,11 @@ void alone(const std::string& what, int threads, int rounds)
   {
     if (what == "edits")
     {
-      const Edits edits = timesOfEdits(scan, *mesh, edge);
-      std::printf("median %.1f ms, of all processors %.1f ms\n", 1e3 * median(edits.times),
-        1e3 * median(edits.processorTimes));
+      chain(scan, parts, BlendMethod::PrimitiveBased)->mesh(edge);
+      const Edits edits = timesOfEdits(scan, *mesh, parts, edge);
+      std::printf("median %.1f ms, of all processors %.1f ms, slowest %.1f ms\n",
+        1e3 * median(edits.times), 1e3 * median(edits.processorTimes),
+        1e3 * *std::max_element(edits.processorTimes.begin(), edits.processorTimes.end()));
       continue;
     }
     const auto named = std::find(kNames.begin(), kNames.end(), what);
@@ -269,7 +272,7 @@ void table3(int threads, int rounds, bool all)
   {
     for (std::size_t m = 0; m < kMethods.size(); ++m)
     {
-      forgetBlends(); // nothing is left from before
+      forgetBlends();      // nothing is left from before
       meshes[m] = nullptr; // what is freed takes no time of the next
       const NodePtr node = chain(scan, parts, kMethods[m]);
       processorTimes[m].push_back(processorSeconds(
@@ -302,7 +305,7 @@ void table3(int threads, int rounds, bool all)
     return;
   }
 
-  reportEdits(scan, *mesh, edge, first, firstProcessor, global);
+  reportEdits(scan, *mesh, parts, edge, first, firstProcessor, global);
 
   const double bounded = denseGrid(*mesh, threads, kInfluence, 4);
   std::printf("dense %d^3 grid by Embree within R: %.1f s, %.0f times the primitive-based mesh\n",
@@ -312,20 +315,13 @@ void table3(int threads, int rounds, bool all)
     kGrid, unbounded, unbounded / local);
 }
 
-double best(const std::function<void()>& work)
+/// Two balls as in Fig. 15.
+struct Pair
 {
-  const double least = seconds(work);
-  return std::min(least, seconds(work));
-}
+  NodePtr a;
+  NodePtr b;
 
-void pairs(const char* file)
-{
-  setThreadCount(1);
-  std::ofstream csv(file);
-  csv << "ratio,global,nodeBased,automatic\n";
-  test::Random random(15);
-  const double edge = 0.02;
-  for (int k = 0; k < 1000; ++k)
+  explicit Pair(test::Random& random)
   {
     const auto ball = [](const Vec3& center, double radius)
     {
@@ -333,25 +329,57 @@ void pairs(const char* file)
         Potential::bySurfaceRadius(radius, 1.5 * radius, 2));
     };
     const double radius = random.uniform(0.25, 0.5);
-    const NodePtr a = ball(Vec3::Zero(), 0.5);
-    const NodePtr b = ball(random.uniform(0.0, 1.6) * random.direction(), radius);
-    const double ratio = overlapRatio(b->influenceBounds(), { a->influenceBounds() });
-    csv << ratio;
-    for (const BlendMethod method :
-      { BlendMethod::Global, BlendMethod::NodeBased, BlendMethod::Automatic })
+    a = ball(Vec3::Zero(), 0.5);
+    b = ball(random.uniform(0.0, 1.6) * random.direction(), radius);
+  }
+
+  double ratio() const { return overlapRatio(b->influenceBounds(), { a->influenceBounds() }); }
+
+  /// New leaves each time: their direct meshes are part of the work.
+  void mesh(BlendMethod method, double edge) const
+  {
+    const Affine3 map(Eigen::Translation3d(1e-9, 0, 0));
+    makeBlend({ a->affine(map), b->affine(map) }, { method, 1.0 })->mesh(edge);
+  }
+
+  BlendMeshReport report(BlendMethod method, double edge) const
+  {
+    BlendMeshReport report;
+    const NodePtr node = makeBlend({ a, b }, { method, 1.0 });
+    blendMesh(*node, { { a.get(), 0 }, { b.get(), 1 } }, { method, 1.0 }, edge, report);
+    return report;
+  }
+};
+
+/// Processor times in turns, medians; and what the estimate of costs counts.
+void pairs(const char* file, int count, int rounds)
+{
+  setThreadCount(1);
+  std::ofstream csv(file);
+  csv << "ratio,global,nodeBased,automatic,local,cells,border,kept,cut,made,samples\n";
+  test::Random random(15);
+  const double edge = 0.02;
+  const std::array<BlendMethod, 3> methods = { BlendMethod::Global, BlendMethod::NodeBased,
+    BlendMethod::Automatic };
+  for (int k = 0; k < count; ++k)
+  {
+    const Pair pair(random);
+    std::array<std::vector<double>, 3> times;
+    for (int round = 0; round < rounds; ++round)
     {
-      // New leaves each time: their direct meshes are part of the work.
-      csv << ','
-          << best(
-               [&]
-               {
-                 makeBlend({ a->affine(Affine3(Eigen::Translation3d(1e-9, 0, 0))),
-                             b->affine(Affine3(Eigen::Translation3d(1e-9, 0, 0))) },
-                   { method, 1.0 })
-                   ->mesh(edge);
-               });
+      for (std::size_t m = 0; m < methods.size(); ++m)
+      {
+        forgetBlends();
+        times[m].push_back(processorSeconds([&] { pair.mesh(methods[m], edge); }));
+      }
     }
-    csv << '\n';
+    const BlendMeshReport local = pair.report(BlendMethod::NodeBased, edge);
+    const bool isGlobal = pair.report(BlendMethod::Automatic, edge).method == BlendMethod::Global;
+    csv << pair.ratio() << ',' << median(times[0]) << ',' << median(times[1]) << ','
+        << median(times[2]) << ',' << (isGlobal ? 0 : 1) << ',' << local.markedCells
+        << ',' << local.borderCells << ',' << local.keptTriangles << ',' << local.cutTriangles
+        << ',' << local.newTriangles << ',' << pair.report(BlendMethod::Global, edge).samplePoints
+        << '\n';
   }
 }
 
@@ -361,7 +389,7 @@ int main(int argc, char** argv)
 {
   if (argc > 2 && std::string(argv[1]) == "pairs")
   {
-    pairs(argv[2]);
+    pairs(argv[2], argc > 3 ? std::atoi(argv[3]) : 1000, argc > 4 ? std::atoi(argv[4]) : 5);
     return 0;
   }
   if (argc > 1 && std::string(argv[1]) == "methods")

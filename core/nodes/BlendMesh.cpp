@@ -275,6 +275,8 @@ TriangleMesh stitchOver(const Node& blend, const IslandField& field,
   const std::vector<KeptPart>& kept, CellSet cells, const CellGrid& grid, BlendMeshReport& report,
   const Progress& progress)
 {
+  report.markedCells = cells.size();
+  report.borderCells = cells.borderCount();
   StitchOptions options;
   options.grid = grid;
   options.maxBytes = kMaxBytes;

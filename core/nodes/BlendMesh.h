@@ -24,6 +24,8 @@ struct BlendPart
 struct BlendMeshReport
 {
   BlendMethod method = BlendMethod::Global; ///< Global where everything was polygonized
+  std::size_t markedCells = 0;              ///< those polygonized; 0 where all of the lattice was
+  std::size_t borderCells = 0;              ///< of these, those beside one that is not marked
   std::size_t samplePoints = 0;             ///< new points on the surface
   std::size_t keptTriangles = 0;            ///< of the parts, as they are
   std::size_t cutTriangles = 0;

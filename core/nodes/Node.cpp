@@ -51,8 +51,13 @@ void Node::signedDistance(PointBatch points, double* distance) const
 
 double Node::defaultEdgeLength() const
 {
+  // In steps: a part that is dragged past the others' bounds does not change the lattice each time.
+  constexpr double kStepsPerDoubling = 8.0;
   const Box3 box = this->surfaceBounds();
-  return box.isEmpty() ? 1.0 : std::max(box.diagonal().norm() / 100.0, 1e-300);
+  const double length = box.isEmpty() ? 1.0 : box.diagonal().norm() / 100.0;
+  return length > 1e-300
+    ? std::exp2(std::round(kStepsPerDoubling * std::log2(length)) / kStepsPerDoubling)
+    : 1e-300;
 }
 
 MeshPtr Node::mesh(double edgeLength, const Progress& progress) const

@@ -76,7 +76,7 @@ public:
   /// \throws InvalidParameter, InvalidGeometry, TooLarge, Cancelled.
   MeshPtr mesh(double edgeLength = 0.0, const Progress& progress = Progress::none()) const;
 
-  /// Diagonal of surfaceBounds() / 100.
+  /// About diagonal of surfaceBounds() / 100: the nearest power of 2^(1/8).
   double defaultEdgeLength() const;
 
   /// This shape under an affine map, pushed down to the leaves ([HT] 4.5.3). Exact: the field of

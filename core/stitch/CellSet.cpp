@@ -362,6 +362,29 @@ void forEachDiagonal(const CellSet& cells, const CellSet::Brick& brick, Visit&& 
 
 } // namespace
 
+std::size_t CellSet::borderCount() const
+{
+  std::size_t count = 0;
+  for (const Brick& brick : bricks_)
+  {
+    const Halo halo(*this, brick.index);
+    for (int z = 0; z < kBrickSide; ++z)
+    {
+      for (int y = 0; y < kBrickSide; ++y)
+      {
+        const unsigned row = halo.rows[z + 1][y + 1];
+        const unsigned inner = row & row << 1 & row >> 1 & halo.rows[z + 1][y] &
+          halo.rows[z + 1][y + 2] & halo.rows[z][y + 1] & halo.rows[z + 2][y + 1];
+        for (unsigned border = row & ~inner & 0x1feu; border != 0; border &= border - 1)
+        {
+          ++count;
+        }
+      }
+    }
+  }
+  return count;
+}
+
 void CellSet::fillDiagonals()
 {
   std::vector<Index3> added;

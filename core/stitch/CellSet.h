@@ -45,6 +45,9 @@ public:
   bool empty() const { return bricks_.empty(); }
   std::size_t size() const;
 
+  /// How many have a face in common with a cell that is not in the set.
+  std::size_t borderCount() const;
+
   /// In the order of insertion, until sort().
   const std::vector<Brick>& bricks() const { return bricks_; }
   const BrickBits* find(const Index3& brick) const;

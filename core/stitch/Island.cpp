@@ -69,8 +69,7 @@ public:
     this->join(patch);
     projectPoints(field_, this->pointsToMove(patch), kReach * options_.grid.cellSize, island_.mesh);
     mendNormals(island_.mesh);
-    sharpenCreases(field_, options_.grid.lattice({}, {}),
-      island_.mesh.triangles.size() - patch.triangles.size(), island_.mesh, progress_);
+    this->sharpen(patch, faceted);
     onCrease_.resize(island_.mesh.points.size(), true); // those that were added
     improveShapes(field_, island_.mesh, island_.rim.size(), onCrease_, options_.grid.cellSize);
     this->findFaults(patch);
@@ -90,6 +89,20 @@ public:
   }
 
 private:
+  /// As latticeMesh(): where facets are smoothed away first, they are not looked at as creases.
+  void sharpen(const Patch& patch, bool faceted)
+  {
+    TriangleMesh& mesh = island_.mesh;
+    const std::vector<Vec3> before = mesh.normals;
+    if (faceted)
+    {
+      this->smoothNewNormals();
+    }
+    sharpenCreases(field_, options_.grid.lattice({}, {}),
+      mesh.triangles.size() - patch.triangles.size(), mesh, progress_);
+    std::copy(before.begin(), before.end(), mesh.normals.begin());
+  }
+
   void smoothNewNormals()
   {
     const auto kept = static_cast<std::ptrdiff_t>(island_.rim.size());
