@@ -13,17 +13,19 @@ def elements(prop):
 
 
 def drawn(proxy):
-    """Triangles that the view draws of a source; None if it is hidden."""
+    """What the view draws of a source, as vtkPVDataInformation; None if it is hidden."""
     display = simple.GetActiveView().SMProxy.FindRepresentation(proxy, 0)
     if not display or not display.GetProperty("Visibility").GetElement(0):
         return None
-    return display.GetRepresentedDataInformation().GetNumberOfCells()
+    return display.GetRepresentedDataInformation()
 
 
 def describe(source):
-    """Kind, triangles, inputs and numbers of a source."""
+    """Kind, triangles that are drawn and their bounds, inputs and numbers of a source."""
     proxy = source.SMProxy
-    found = {"kind": proxy.GetXMLName(), "drawn": drawn(proxy)}
+    found = {"kind": proxy.GetXMLName(), "drawn": None}
+    if data := drawn(proxy):
+        found.update(drawn=data.GetNumberOfCells(), bounds=list(data.GetBounds()))
     iterator = proxy.NewPropertyIterator()
     iterator.Begin()
     while not iterator.IsAtEnd():

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A session of clicks in the real ParaView GUI: create, apply, undo, redo, copy and paste, drag, change the input,
-delete, save and reload a state. ParaView's own event player clicks; each step waits for the one before.
+"""A session of clicks in the real ParaView GUI: draw a skeleton, create, apply, undo, redo, copy and paste, drag, change
+the input, delete, save and reload a state. ParaView's own event player clicks; each step waits for the one before.
 """
 import json
 import os
@@ -83,10 +83,12 @@ class Session:
         self.mouse("mouseRelease", x1, y1, LEFT, 0)
 
     def expect(self, check):
-        """Has gui_recorder write the pipeline down; check(pipeline, records before) is for after the session."""
+        """Has gui_recorder write the pipeline down; check(pipeline, records before) is for after the session. Returns the
+        number of the record."""
         self.mouse("mouseMove", 0.001, 0.5)
         self.mouse("mouseMove", 0.02, 0.5)
         self.checks.append(check)
+        return len(self.checks) - 1
 
     def expect_by_shell(self, check):
         """As expect, where the view is not the one that is watched."""
@@ -131,6 +133,36 @@ def same_as(index):
     return check
 
 
+def draw_skeleton(session):
+    """Drags a point of the Skeleton Editor; the surface on top of it follows."""
+    session.source("HybridTreeSkeletonEditor")
+    session.event(WINDOW + "/cameraToolbar/actionResetCamera", "activate")
+    session.filter("HybridTreeSubdivisionSkeleton")
+    session.expect(lambda pipeline, _: pipeline["HybridTreeSubdivisionSkeleton1"]["drawn"] > 1000)
+    session.pick(BROWSER, "/0:0/0:0")
+    # ParaView took the handles away when it hid the editor under the surface.
+    session.event(f"{PROPERTIES}/PropertiesFrame/ProxyPanel/InteractivePolyLine/show3DWidget", "set_boolean", "true")
+    session.drag(0.4907, 0.5, 0.4907, 0.3)  # point 2, 0.05 to the left of the middle of what there is to see
+    session.apply()
+
+    def followed(pipeline, records):
+        start = records[0]["HybridTreeSkeletonEditor1"]["Points"]
+        points = pipeline["HybridTreeSkeletonEditor1"]["Points"]
+        moved = [k for k in range(6) if points[3 * k:3 * k + 3] != start[3 * k:3 * k + 3]]
+        assert moved == [2] and points[7] > 0.4, (moved, points)
+        before, after = (p["HybridTreeSubdivisionSkeleton1"]["bounds"] for p in (records[0], pipeline))
+        assert after[3] > before[3] + 0.05, (before, after)
+
+    session.expect(followed)
+    session.undo()
+    session.expect(same_as(0))
+    session.pick(BROWSER, "/0:0/0:0/0:0/0:0")  # below the editor's first output
+    session.delete()
+    session.pick(BROWSER, "/0:0/0:0")
+    session.delete()
+    session.expect(lambda pipeline, _: kinds(pipeline) == [])
+
+
 def create(session):
     session.source("HybridTreePoint")
     session.expect(names("Point1"))
@@ -139,7 +171,7 @@ def create(session):
     session.pick(BROWSER, "/0:0/0:0", "/0:0/1:0")
     session.filter("HybridTreeBlend")
     session.expect(value("Blend1", "Input", ["HybridTreePoint1", "HybridTreeSegment1"]))
-    session.expect(names("Point1", "Segment1", "Blend1"))
+    session.created = session.expect(names("Point1", "Segment1", "Blend1"))
     session.expect(drawn("Blend1"))
 
 
@@ -150,7 +182,7 @@ def undo_creation(session):
     session.undo(4)
     session.expect(lambda pipeline, _: kinds(pipeline) == [])
     session.redo(6)
-    session.expect(same_as(3))
+    session.expect(same_as(session.created))
 
 
 def undo_property(session):
@@ -160,11 +192,11 @@ def undo_property(session):
     session.expect(value("Point1", "SurfaceRadius", [0.7]))
 
     def blend_followed(pipeline, records):
-        assert pipeline["HybridTreeBlend1"]["drawn"] != records[3]["HybridTreeBlend1"]["drawn"]
+        assert pipeline["HybridTreeBlend1"]["drawn"] != records[session.created]["HybridTreeBlend1"]["drawn"]
 
     session.expect(blend_followed)
     session.undo()
-    session.expect(same_as(3))
+    session.expect(same_as(session.created))
     session.redo()
     session.expect(value("Point1", "SurfaceRadius", [0.7]))
     # The point has handed only its tree on since; it is meshed as soon as it is looked at.
@@ -239,7 +271,7 @@ def play(session, xvfb_run, home):
 def main():
     with tempfile.TemporaryDirectory() as home:
         session = Session(os.path.join(home, "session.pvsm"))
-        for part in (create, undo_creation, undo_property, copy_and_paste, drag_widget, change_input, delete, reload_state):
+        for part in (draw_skeleton, create, undo_creation, undo_property, copy_and_paste, drag_widget, change_input, delete, reload_state):
             part(session)
         output = play(session, sys.argv[1], home)
         for sign in ("ERR|", "WARN|"):
