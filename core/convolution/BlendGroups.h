@@ -7,6 +7,21 @@
 namespace hybridtree
 {
 
+/// A piece, and where it is.
+struct BlendPiece
+{
+  const SegmentElement* segment;   ///< or
+  const TriangleElement* triangle; ///< null for a segment
+  const BlendPieces::Place* place;
+};
+
+/// What is known of one group where fields have no end (the Cauchy kernel).
+struct FarGroup
+{
+  std::vector<BlendPiece> pieces;
+  CauchyBound bound;
+};
+
 /// A skeleton in groups, as BlendedField keeps it.
 struct BlendGroups
 {
@@ -15,7 +30,8 @@ struct BlendGroups
   const std::vector<std::int32_t>& segmentGroups; ///< per element of `whole`, as it was given them
   const std::vector<std::int32_t>& triangleGroups;
   const ConvolutionField& pieces;
-  const BlendPieces& places; ///< of the pieces, as that field was given them
+  const BlendPieces& places;              ///< of the pieces, as that field was given them
+  const std::vector<FarGroup>& farGroups; ///< empty with the compact kernel
 
   std::size_t size() const { return places.neighbours.size(); }
   bool areNeighbours(std::int32_t a, std::int32_t b) const;

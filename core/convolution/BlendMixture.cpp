@@ -1,168 +1,181 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/convolution/BlendMixture.h"
 
-#include "core/convolution/BlendSets.h"
-
 #include <algorithm>
-#include <array>
 
 namespace hybridtree
 {
-namespace
-{
 
-constexpr std::size_t kMostPoints = 64;       // handled together
-constexpr std::size_t kMostNumbers = 1 << 18; // in the largest array, to stay in the cache
-
-// The largest of the sums G_i at some points.
-class Mixture
+BlendMixture::BlendMixture(
+  PieceFields& fields, const std::vector<double>& bounds, const std::vector<std::int32_t>* centers)
+  : fields_(fields)
+  , share_(fields.pieces().groups().control)
+  , isPaper_(fields.pieces().groups().control.kind == BlendingKind::Paper)
+  , bounds_(bounds)
+  , sets_(fields.pieces(), bounds, centers)
+  , points_(fields.points().size)
+  , best_(points_)
+  , total_(points_)
+  , here_(points_)
+  , distance_(points_)
 {
-public:
-  Mixture(PieceFields& fields, const std::vector<double>& bounds)
-    : fields_(fields)
-    , share_(fields.pieces().groups().control)
-    , isPaper_(fields.pieces().groups().control.kind == BlendingKind::Paper)
-    , sets_(fields.pieces(), bounds)
-    , points_(fields.points().size)
-    , best_(points_)
-    , total_(points_)
-    , here_(points_)
-    , distance_(points_)
+  std::fill_n(best_.data(), points_, 0.0);
+  for (std::size_t set = 0; set < sets_.size() && this->leastBest() < sets_[set].bound; ++set)
   {
-    std::fill_n(best_.data(), points_, 0.0);
-    for (std::size_t set = 0; set < sets_.size() && this->leastBest() < sets_[set].bound; ++set)
+    if (this->staysPossible(sets_[set]))
     {
-      if (this->mayBeBest(sets_[set]))
+      this->tryOut(set);
+    }
+  }
+}
+
+double BlendMixture::leastBest() const
+{
+  return *std::min_element(best_.data(), best_.data() + points_);
+}
+
+void BlendMixture::clear(ScratchArray& row) const
+{
+  std::fill_n(row.data(), points_, 0.0);
+}
+
+void BlendMixture::add(const double* from, ScratchArray& row) const
+{
+  double* to = row.data();
+  for (std::size_t k = 0; k < points_; ++k)
+  {
+    to[k] += from[k];
+  }
+}
+
+// Shares are at most 1.
+bool BlendMixture::mayBeBest(const BlendSets::Set& set)
+{
+  double unknown = 0.0;
+  this->clear(total_);
+  const bool isCut = isPaper_ && fields_.isKnown(set.center);
+  for (const std::size_t* member = set.begin; member != set.end; ++member)
+  {
+    if (!fields_.isKnown(*member))
+    {
+      unknown += bounds_[*member];
+    }
+    else if (isCut)
+    {
+      const double* own = fields_.field(*member);
+      const double* here = fields_.field(set.center);
+      for (std::size_t k = 0; k < points_; ++k)
       {
-        this->tryOut(set);
+        total_[k] += std::min(own[k], here[k]);
       }
     }
-  }
-
-  double best(std::size_t k) const { return best_.data()[k]; }
-
-  /// Of the largest sums at some of the points.
-  void findGradients(const std::vector<std::size_t>& some, const VectorBatch& gradient);
-
-private:
-  class Weights;
-
-  void clear(ScratchArray& row) const { std::fill_n(row.data(), points_, 0.0); }
-  void add(const double* from, ScratchArray& row) const
-  {
-    double* to = row.data();
-    for (std::size_t k = 0; k < points_; ++k)
-    {
-      to[k] += from[k];
-    }
-  }
-
-  double leastBest() const { return *std::min_element(best_.data(), best_.data() + points_); }
-
-  // Shares are at most 1.
-  bool mayBeBest(const BlendSets::Set& set)
-  {
-    this->clear(total_);
-    for (const std::size_t* member = set.begin; member != set.end; ++member)
+    else
     {
       this->add(fields_.field(*member), total_);
     }
+  }
+  for (std::size_t k = 0; k < points_; ++k)
+  {
+    if (total_[k] + unknown > best_[k])
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+// Integrates the members one after another, as long as it may.
+bool BlendMixture::staysPossible(const BlendSets::Set& set)
+{
+  bool isPossible = this->mayBeBest(set);
+  for (const std::size_t* member = set.begin; isPossible && member != set.end; ++member)
+  {
+    if (!fields_.isKnown(*member))
+    {
+      fields_.field(*member);
+      isPossible = this->mayBeBest(set);
+    }
+  }
+  return isPossible;
+}
+
+// The members on which a set's sum says where a point is. As [SUB]: i alone.
+BlendSets::Set BlendMixture::placesOf(BlendSets::Set set) const
+{
+  if (isPaper_)
+  {
+    set.begin = std::find(set.begin, set.end, set.center);
+    set.end = set.begin + 1;
+  }
+  return set;
+}
+
+void BlendMixture::sumPlaces(const BlendSets::Set& places)
+{
+  this->clear(here_);
+  for (const std::size_t* place = places.begin; place != places.end; ++place)
+  {
+    this->add(fields_.field(*place), here_);
+  }
+}
+
+// D of one member.
+void BlendMixture::findDistance(const BlendSets::Set& places, std::size_t member)
+{
+  this->clear(distance_);
+  for (const std::size_t* place = places.begin; place != places.end; ++place)
+  {
+    if (*place != member)
+    {
+      this->add(fields_.far(*place, member), distance_);
+    }
+  }
+  for (std::size_t k = 0; k < points_; ++k)
+  {
+    distance_[k] = here_[k] > 0.0 ? distance_[k] / here_[k] : share_.farthest();
+  }
+}
+
+// [SUB]'s sums are those of the largest element alone: with the others cut to its own field they
+// are continuous and agree with [SUB] where it is the largest.
+bool BlendMixture::isCut(double own, double here) const
+{
+  return isPaper_ && here < own;
+}
+
+void BlendMixture::tryOut(std::size_t set)
+{
+  const BlendSets::Set of = sets_[set];
+  const BlendSets::Set places = this->placesOf(of);
+  this->sumPlaces(places);
+  this->clear(total_);
+  for (const std::size_t* member = of.begin; member != of.end; ++member)
+  {
+    const double* own = fields_.field(*member);
+    this->findDistance(places, *member);
     for (std::size_t k = 0; k < points_; ++k)
     {
-      if (total_[k] > best_[k])
-      {
-        return true;
-      }
+      total_[k] += share_(distance_[k]) * (this->isCut(own[k], here_[k]) ? here_[k] : own[k]);
     }
-    return false;
   }
-
-  // The members on which a set's sum says where a point is. As [SUB]: i alone.
-  BlendSets::Set placesOf(BlendSets::Set set) const
+  for (std::size_t k = 0; k < points_; ++k)
   {
-    if (isPaper_)
+    if (total_[k] > best_[k])
     {
-      set.begin = std::find(set.begin, set.end, set.center);
-      set.end = set.begin + 1;
-    }
-    return set;
-  }
-
-  void sumPlaces(const BlendSets::Set& places)
-  {
-    this->clear(here_);
-    for (const std::size_t* place = places.begin; place != places.end; ++place)
-    {
-      this->add(fields_.field(*place), here_);
+      best_[k] = total_[k];
+      winners_[k] = set;
     }
   }
-
-  // D of one member.
-  void findDistance(const BlendSets::Set& places, std::size_t member)
-  {
-    this->clear(distance_);
-    for (const std::size_t* place = places.begin; place != places.end; ++place)
-    {
-      if (*place != member)
-      {
-        this->add(fields_.far(*place, member), distance_);
-      }
-    }
-    for (std::size_t k = 0; k < points_; ++k)
-    {
-      distance_[k] = here_[k] > 0.0 ? distance_[k] / here_[k] : share_.farthest();
-    }
-  }
-
-  // [SUB]'s sums are those of the largest element alone: with the others cut to its own field they
-  // are continuous and agree with [SUB] where it is the largest.
-  bool isCut(double own, double here) const { return isPaper_ && here < own; }
-
-  void tryOut(std::size_t set)
-  {
-    const BlendSets::Set of = sets_[set];
-    const BlendSets::Set places = this->placesOf(of);
-    this->sumPlaces(places);
-    this->clear(total_);
-    for (const std::size_t* member = of.begin; member != of.end; ++member)
-    {
-      const double* own = fields_.field(*member);
-      this->findDistance(places, *member);
-      for (std::size_t k = 0; k < points_; ++k)
-      {
-        total_[k] += share_(distance_[k]) * (this->isCut(own[k], here_[k]) ? here_[k] : own[k]);
-      }
-    }
-    for (std::size_t k = 0; k < points_; ++k)
-    {
-      if (total_[k] > best_[k])
-      {
-        best_[k] = total_[k];
-        winners_[k] = set;
-      }
-    }
-  }
-
-  PieceFields& fields_;
-  BlendShare share_;
-  bool isPaper_;
-  BlendSets sets_;
-  std::size_t points_;
-  ScratchArray best_;
-  ScratchArray total_;
-  ScratchArray here_;
-  ScratchArray distance_;
-  std::array<std::size_t, kMostPoints> winners_;
-};
+}
 
 // Of the pieces' gradients in that of the largest sum: with F the sum of f_c over the places, and
 // s_j = f_j alpha'(D_j) / F,
 //   grad G = sum of alpha(D_j) grad f_j + sum over places c of (sum of s_j (d(c, j) - D_j)) grad
 //   f_c.
-class Mixture::Weights
+class BlendMixture::Weights
 {
 public:
-  Weights(Mixture& mixture, const std::vector<std::size_t>& some)
+  Weights(BlendMixture& mixture, const std::vector<std::size_t>& some)
     : fields_(mixture.fields_)
     , groups_(fields_.pieces().groupCount())
     , points_(some.size())
@@ -217,7 +230,7 @@ private:
   double* row(ScratchArray& rows, std::size_t group) { return rows.data() + group * points_; }
 
   // The point has the place `at` among all, `k` among those wanted.
-  void addSum(Mixture& mixture, std::size_t at, std::size_t k)
+  void addSum(BlendMixture& mixture, std::size_t at, std::size_t k)
   {
     const BlendSets::Set set = mixture.sets_[mixture.winners_[at]];
     const BlendSets::Set places = mixture.placesOf(set);
@@ -260,7 +273,7 @@ private:
   std::vector<std::size_t> varying_; // groups with any s_j, ascending
 };
 
-void Mixture::findGradients(const std::vector<std::size_t>& some, const VectorBatch& gradient)
+void BlendMixture::findGradients(const std::vector<std::size_t>& some, const VectorBatch& gradient)
 {
   const std::size_t count = some.size();
   Weights weights(*this, some);
@@ -301,75 +314,6 @@ void Mixture::findGradients(const std::vector<std::size_t>& some, const VectorBa
   for (std::size_t k = 0; k < count; ++k)
   {
     gradient.set(some[k], { total[count + k], total[2 * count + k], total[3 * count + k] });
-  }
-}
-
-void clear(std::size_t count, double* value, const VectorBatch* gradient)
-{
-  std::fill_n(value, count, 0.0);
-  for (double* array : { gradient ? gradient->x : value, gradient ? gradient->y : value,
-         gradient ? gradient->z : value })
-  {
-    std::fill_n(array, count, 0.0);
-  }
-}
-
-void mixPart(
-  const PiecesNear& pieces, PointBatch points, double* value, const VectorBatch* gradient)
-{
-  PieceFields fields(pieces, points);
-  std::vector<double> bounds(pieces.groupCount());
-  ScratchArray sum(points.size);
-  std::fill_n(sum.data(), points.size, 0.0);
-  for (std::size_t number = 0; number < bounds.size(); ++number)
-  {
-    const double* field = fields.field(number);
-    bounds[number] = *std::max_element(field, field + points.size);
-    for (std::size_t k = 0; k < points.size; ++k)
-    {
-      sum[k] += field[k];
-    }
-  }
-  Mixture mixture(fields, bounds);
-  const bool keepsSums = pieces.groups().isLocal();
-  std::vector<std::size_t> changed;
-  for (std::size_t k = 0; k < points.size; ++k)
-  {
-    if (!keepsSums || mixture.best(k) < sum[k])
-    {
-      value[k] = mixture.best(k);
-      changed.push_back(k);
-    }
-  }
-  if (gradient && !changed.empty())
-  {
-    mixture.findGradients(changed, *gradient);
-  }
-}
-
-} // namespace
-
-void mixBlends(
-  const BlendGroups& groups, PointBatch points, double* value, const VectorBatch* gradient)
-{
-  Box3 box;
-  for (std::size_t k = 0; k < points.size; ++k)
-  {
-    box.extend(points[k]);
-  }
-  const PiecesNear pieces(groups, box);
-  if (pieces.size() == 0)
-  {
-    clear(points.size, value, gradient);
-    return;
-  }
-  const std::size_t most = pieces.groupCount() * pieces.groupCount();
-  const std::size_t step = std::clamp<std::size_t>(kMostNumbers / most, 8, kMostPoints);
-  for (std::size_t begin = 0; begin < points.size; begin += step)
-  {
-    const std::size_t count = std::min(step, points.size - begin);
-    const VectorBatch slopes = gradient ? gradient->slice(begin) : VectorBatch{};
-    mixPart(pieces, points.slice(begin, count), value + begin, gradient ? &slopes : nullptr);
   }
 }
 

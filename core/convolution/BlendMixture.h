@@ -1,21 +1,57 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "core/convolution/BlendGroups.h"
+#include "core/convolution/BlendSets.h"
+
+#include <array>
 
 namespace hybridtree
 {
 
-/// The field under blending control by its definition (BlendedField.h), before the fading of the
-/// Cauchy kernel: the largest of the sums G_i.
-///
-/// Each piece near the points is integrated once for all sums. Sums whose fields with all shares 1
+/// The largest of the sums G_i at some points (BlendedField.h). Sums whose fields with all shares 1
 /// are no larger than the best so far are passed over. The gradient is that of the largest sum:
 /// pieces' gradients, each times a weight per point.
-///
-/// Overwrites `value`, and `gradient` unless null. When groups.isLocal() both hold the plain sum
-/// before, and keep it where that is the field.
-void mixBlends(
-  const BlendGroups& groups, PointBatch points, double* value, const VectorBatch* gradient);
+class BlendMixture
+{
+public:
+  static constexpr std::size_t kMostPoints = 64;
+
+  /// \param bounds and \param centers as for BlendSets.
+  /// \pre at most kMostPoints points.
+  BlendMixture(PieceFields& fields, const std::vector<double>& bounds,
+    const std::vector<std::int32_t>* centers);
+
+  double best(std::size_t k) const { return best_.data()[k]; }
+  double leastBest() const;
+
+  /// Of the largest sums at some of the points.
+  void findGradients(const std::vector<std::size_t>& some, const VectorBatch& gradient);
+
+private:
+  class Weights;
+
+  void clear(ScratchArray& row) const;
+  void add(const double* from, ScratchArray& row) const;
+
+  bool mayBeBest(const BlendSets::Set& set);
+  bool staysPossible(const BlendSets::Set& set);
+  BlendSets::Set placesOf(BlendSets::Set set) const;
+  void sumPlaces(const BlendSets::Set& places);
+  void findDistance(const BlendSets::Set& places, std::size_t member);
+  bool isCut(double own, double here) const;
+  void tryOut(std::size_t set);
+
+  PieceFields& fields_;
+  BlendShare share_;
+  bool isPaper_;
+  const std::vector<double>& bounds_;
+  BlendSets sets_;
+  std::size_t points_;
+  ScratchArray best_;
+  ScratchArray total_;
+  ScratchArray here_;
+  ScratchArray distance_; ///< D of one member
+  std::array<std::size_t, kMostPoints> winners_;
+};
 
 } // namespace hybridtree

@@ -90,9 +90,25 @@ public:
 
   std::vector<std::vector<std::int32_t>> neighbours() const
   {
+    std::vector<std::vector<std::int32_t>> groupsAtPoints(elements_.points.size());
+    collect(elements_.segments, groupsAtPoints);
+    collect(elements_.triangles, groupsAtPoints);
     std::vector<std::vector<std::int32_t>> lists(elements_.groups.size());
-    this->collect(elements_.segments, lists);
-    this->collect(elements_.triangles, lists);
+    for (std::size_t point = 0; point < groupsAtPoints.size(); ++point)
+    {
+      makeUnique(groupsAtPoints[point]);
+      for (const GroupDistance& near : distances_[point])
+      {
+        for (const std::int32_t group : groupsAtPoints[point])
+        {
+          if (near.distance < limit_)
+          {
+            lists[static_cast<std::size_t>(group)].push_back(near.group);
+            lists[static_cast<std::size_t>(near.group)].push_back(group);
+          }
+        }
+      }
+    }
     for (std::size_t group = 0; group < lists.size(); ++group)
     {
       std::vector<std::int32_t>& list = lists[group];
@@ -104,26 +120,36 @@ public:
   }
 
 private:
-  // Absent from the list of a corner: farther than any limit.
+  // Corners' lists ascend by group. Absent from one: farther than any limit.
   template <std::size_t N, typename Distance>
   BlendPieces::Place place(const GroupedElement<N>& element, const Distance& distance) const
   {
     BlendPieces::Place place{ element.group, {} };
-    std::vector<std::int32_t> groups;
-    for (const std::int32_t corner : element.corners)
+    std::array<const GroupDistance*, N> next;
+    std::array<const GroupDistance*, N> end;
+    for (std::size_t k = 0; k < N; ++k)
     {
-      for (const GroupDistance& near : distances_[static_cast<std::size_t>(corner)])
-      {
-        groups.push_back(near.group);
-      }
+      const auto& list = distances_[static_cast<std::size_t>(element.corners[k])];
+      next[k] = list.data();
+      end[k] = list.data() + list.size();
     }
-    makeUnique(groups);
-    for (const std::int32_t group : groups)
+    constexpr std::int32_t kNone = std::numeric_limits<std::int32_t>::max();
+    for (;;)
     {
+      std::int32_t group = kNone;
+      for (std::size_t k = 0; k < N; ++k)
+      {
+        group = next[k] != end[k] ? std::min(group, next[k]->group) : group;
+      }
+      if (group == kNone)
+      {
+        return place;
+      }
       std::array<double, N> corners;
       for (std::size_t k = 0; k < N; ++k)
       {
-        corners[k] = this->distance(element.corners[k], group);
+        const bool isNear = next[k] != end[k] && next[k]->group == group;
+        corners[k] = isNear ? next[k]++->distance : std::numeric_limits<double>::infinity();
       }
       const double value = group == element.group ? 0.0 : distance(corners);
       if (value < limit_)
@@ -131,37 +157,17 @@ private:
         place.distances.push_back({ group, value });
       }
     }
-    return place;
-  }
-
-  double distance(std::int32_t point, std::int32_t group) const
-  {
-    for (const GroupDistance& near : distances_[static_cast<std::size_t>(point)])
-    {
-      if (near.group == group)
-      {
-        return near.distance;
-      }
-    }
-    return std::numeric_limits<double>::infinity();
   }
 
   template <std::size_t N>
-  void collect(const std::vector<GroupedElement<N>>& elements,
-    std::vector<std::vector<std::int32_t>>& lists) const
+  static void collect(const std::vector<GroupedElement<N>>& elements,
+    std::vector<std::vector<std::int32_t>>& groupsAtPoints)
   {
     for (const GroupedElement<N>& element : elements)
     {
       for (const std::int32_t corner : element.corners)
       {
-        for (const GroupDistance& near : distances_[static_cast<std::size_t>(corner)])
-        {
-          if (near.distance < limit_)
-          {
-            lists[static_cast<std::size_t>(element.group)].push_back(near.group);
-            lists[static_cast<std::size_t>(near.group)].push_back(element.group);
-          }
-        }
+        groupsAtPoints[static_cast<std::size_t>(corner)].push_back(element.group);
       }
     }
   }

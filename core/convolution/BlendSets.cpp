@@ -13,26 +13,33 @@ namespace
 class Candidates
 {
 public:
-  Candidates(const PiecesNear& pieces, const std::vector<double>& bounds)
-    : groups_(pieces.groups())
+  Candidates(const PiecesNear& pieces, const std::vector<double>& bounds,
+    const std::vector<std::int32_t>* centers)
+    : pieces_(pieces)
+    , groups_(pieces.groups())
     , isPaper_(groups_.control.kind == BlendingKind::Paper)
     , words_((bounds.size() + 63) / 64)
     , centers_(groups_.size(), GroupNumbers::kCenters)
   {
-    for (std::size_t number = 0; number < bounds.size(); ++number)
+    if (centers)
+    {
+      std::for_each(
+        centers->begin(), centers->end(), [&](std::int32_t center) { this->addCenter(center); });
+    }
+    // As [SUB]: i has a field itself.
+    for (std::size_t number = 0; isPaper_ && !centers && number < bounds.size(); ++number)
     {
       if (bounds[number] > 0.0)
       {
         this->addCenter(pieces.group(number));
       }
     }
-    // As [SUB]: i has a field itself.
-    isClosed_ = isPaper_;
+    isClosed_ = isPaper_ || centers;
     for (std::size_t number = 0; number < bounds.size(); ++number)
     {
       if (bounds[number] > 0.0)
       {
-        this->addMember(pieces.group(number), number, bounds[number]);
+        this->addMember(number, bounds);
       }
     }
   }
@@ -53,7 +60,7 @@ private:
     }
   }
 
-  void addMember(std::int32_t group, std::size_t number, double bound)
+  void addMember(std::size_t number, const std::vector<double>& bounds)
   {
     const auto add = [&](std::int32_t center)
     {
@@ -61,20 +68,24 @@ private:
       {
         this->addCenter(center);
       }
-      const std::int32_t at = centers_.find(center);
-      if (at >= 0)
+      if (centers_.find(center) < 0)
       {
-        // Members ascend in all sets, so equal sets have equal bounds.
-        bounds_[static_cast<std::size_t>(at)] += bound;
-        bits_[static_cast<std::size_t>(at) * words_ + number / 64] |= std::uint64_t(1)
-          << (number % 64);
+        return;
       }
+      const auto at = static_cast<std::size_t>(centers_.find(center));
+      bits_[at * words_ + number / 64] |= std::uint64_t(1) << (number % 64);
+      // Members ascend in all sets, so equal sets have equal bounds.
+      bounds_[at] += isPaper_
+        ? std::min(bounds[number], bounds[static_cast<std::size_t>(pieces_.find(center))])
+        : bounds[number];
     };
+    const std::int32_t group = pieces_.group(number);
     add(group);
     const auto& others = groups_.places.neighbours[static_cast<std::size_t>(group)];
     std::for_each(others.begin(), others.end(), add);
   }
 
+  const PiecesNear& pieces_;
   const BlendGroups& groups_;
   bool isPaper_;
   bool isClosed_ = false;
@@ -86,9 +97,10 @@ private:
 
 } // namespace
 
-BlendSets::BlendSets(const PiecesNear& pieces, const std::vector<double>& bounds)
+BlendSets::BlendSets(const PiecesNear& pieces, const std::vector<double>& bounds,
+  const std::vector<std::int32_t>* centers)
 {
-  const Candidates candidates(pieces, bounds);
+  const Candidates candidates(pieces, bounds, centers);
   const std::size_t words = candidates.words();
   std::vector<std::size_t> order(candidates.size());
   std::iota(order.begin(), order.end(), std::size_t(0));

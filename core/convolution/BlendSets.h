@@ -20,7 +20,9 @@ public:
   };
 
   /// \param bounds per number: of its field at any of the points. Groups with 0 are in no set.
-  BlendSets(const PiecesNear& pieces, const std::vector<double>& bounds);
+  /// \param centers the i of the sums; null for all with a member.
+  BlendSets(const PiecesNear& pieces, const std::vector<double>& bounds,
+    const std::vector<std::int32_t>* centers);
 
   std::size_t size() const { return ranges_.size(); }
   Set operator[](std::size_t k) const;

@@ -2,7 +2,7 @@
 #include "core/convolution/BlendSums.h"
 
 #include "core/base/Scratch.h"
-#include "core/convolution/BlendMixture.h"
+#include "core/convolution/MixBlends.h"
 
 #include <algorithm>
 #include <array>

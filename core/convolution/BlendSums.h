@@ -11,7 +11,7 @@ namespace hybridtree
 ///
 /// With the compact kernel each unit is integrated once, as the plain sum does it. Where
 /// upper bounds of the D_ij from these fields and selection.farthest leave every share 1, the sum
-/// is the field: nearly everywhere. The other points are left to BlendMixture.
+/// is the field: nearly everywhere. The other points are left to mixBlends().
 ///
 /// Overwrites `value`, and `gradient` unless null.
 /// \pre selection.isControlled, and the selection is that of a box that holds the points.

@@ -96,6 +96,28 @@ ElementSpans spansOf(const TriangleElement* const* triangle)
   return { {}, { triangle, 1 } };
 }
 
+std::vector<FarGroup> farGroups(const ConvolutionField& pieces, const BlendPieces& places)
+{
+  std::vector<FarGroup> groups(places.neighbours.size());
+  ElementSelection all;
+  pieces.select(pieces.influenceBounds(), all);
+  const auto add = [&](const auto* element, const BlendPiece& piece)
+  {
+    FarGroup& group = groups[static_cast<std::size_t>(piece.place->group)];
+    group.pieces.push_back(piece);
+    group.bound.add(*element, pieces.kernel());
+  };
+  for (const SegmentElement* segment : all.segments)
+  {
+    add(segment, { segment, nullptr, &places.segmentPlaces[pieces.index(segment)] });
+  }
+  for (const TriangleElement* triangle : all.triangles)
+  {
+    add(triangle, { nullptr, triangle, &places.trianglePlaces[pieces.index(triangle)] });
+  }
+  return groups;
+}
+
 } // namespace
 
 BlendedField::BlendedField(
@@ -113,12 +135,16 @@ BlendedField::BlendedField(
     pieces_ = std::make_unique<const ConvolutionField>(kernel, places_.segments, places_.triangles);
     places_.segments = {};
     places_.triangles = {};
+    if (kernel.kind == KernelKind::Cauchy)
+    {
+      farGroups_ = farGroups(*pieces_, places_);
+    }
   }
 }
 
 BlendGroups BlendedField::groups() const
 {
-  return { control_, whole_, segmentGroups_, triangleGroups_, *pieces_, places_ };
+  return { control_, whole_, segmentGroups_, triangleGroups_, *pieces_, places_, farGroups_ };
 }
 
 void BlendedField::select(const Box3& box, BlendSelection& selection) const

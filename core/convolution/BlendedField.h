@@ -68,6 +68,7 @@ private:
 
   BlendPieces places_;                             ///< without its elements: those are in pieces_
   std::unique_ptr<const ConvolutionField> pieces_; ///< null when everything blends
+  std::vector<FarGroup> farGroups_;
 };
 
 } // namespace hybridtree

@@ -19,17 +19,6 @@ double squaredRadius(const ConvolutionKernel& kernel)
   return 1.0 / (kernel.influenceRatio * kernel.influenceRatio);
 }
 
-// std::pow() takes longer than what it is for.
-double power(double base, int exponent)
-{
-  double result = base;
-  for (int k = 1; k < exponent; ++k)
-  {
-    result *= base;
-  }
-  return result;
-}
-
 } // namespace
 
 void validate(const ConvolutionKernel& kernel)
@@ -75,7 +64,8 @@ double segmentAmplitude(const ConvolutionKernel& kernel)
     return kThreshold * 4.0 * u * std::sqrt(u) / kPi;
   }
   const double c = 1.0 - squaredRadius(kernel);
-  return kThreshold / (power(c, kernel.exponent) * std::sqrt(c) * bellIntegral(kernel.exponent));
+  return kThreshold /
+    (integerPower(c, kernel.exponent) * std::sqrt(c) * bellIntegral(kernel.exponent));
 }
 
 double triangleAmplitude(const ConvolutionKernel& kernel)
@@ -85,7 +75,7 @@ double triangleAmplitude(const ConvolutionKernel& kernel)
     return kThreshold * 4.0 * (1.0 + 4.0 * squaredRadius(kernel)) / kPi;
   }
   const double c = 1.0 - squaredRadius(kernel);
-  return kThreshold * (kernel.exponent + 1) / (kPi * power(c, kernel.exponent + 1));
+  return kThreshold * (kernel.exponent + 1) / (kPi * integerPower(c, kernel.exponent + 1));
 }
 
 } // namespace hybridtree

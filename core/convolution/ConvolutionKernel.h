@@ -44,4 +44,15 @@ double fadedSlope(double field); ///< derivative of faded()
 /// B_n.
 double bellIntegral(int exponent);
 
+/// For small exponents >= 0, where std::pow() would take longer than what it is for.
+inline double integerPower(double base, int exponent)
+{
+  double result = 1.0;
+  for (int k = 0; k < exponent; ++k)
+  {
+    result *= base;
+  }
+  return result;
+}
+
 } // namespace hybridtree

@@ -29,11 +29,11 @@ struct KernelBounds
     const double steepest = std::max(nearest, std::sqrt(1.0 / (2 * n - 1)));
     const double most = std::max(nearest, std::sqrt(1.0 / (n - 1)));
     g = at(nearest);
-    value = std::pow(g, n);
-    slope = 2.0 * n * steepest * std::pow(at(steepest), n - 1);
+    value = integerPower(g, n);
+    slope = 2.0 * n * steepest * integerPower(at(steepest), n - 1);
     // Eigenvalues -2 n g^(n-1) across, and that + 4 n (n-1) t^2 g^(n-2) along the way to q.
-    curvature = std::max(2.0 * n * std::pow(g, n - 1),
-      4.0 * n * (n - 1) * most * most * (n == 2 ? 1.0 : std::pow(at(most), n - 2)));
+    curvature = std::max(2.0 * n * integerPower(g, n - 1),
+      4.0 * n * (n - 1) * most * most * integerPower(at(most), n - 2));
   }
 };
 
@@ -65,21 +65,49 @@ void add(const Extent& extent, const KernelBounds& kernel, FieldBounds& bounds)
         m * (2.0 * kernel.slope + kernel.value * m / (1.0 - m)) * extent.tail * inverse);
 }
 
-// The kernel 1 / u^2, u = 1 + 4 t^2, from t = `nearest` on; sqrt(E) / R <= 1 + slope t.
+// The Cauchy kernel is 1 / u^2.
+double u(double t)
+{
+  return 1.0 + 4.0 * t * t;
+}
+
+// Of the kernel times the measure, per measure, from t = `nearest` on; sqrt(E) / R <= 1 + slope t.
+double mostOfCauchy(double slope, double nearest)
+{
+  const double far = std::max(nearest, std::sqrt(1.0 / 12.0)); // where t / u^2 is largest
+  return 1.0 / (u(nearest) * u(nearest)) + slope * far / (u(far) * u(far));
+}
+
+double cauchyMeasure(const SegmentElement& element)
+{
+  return element.length * std::max(element.inverseStart, element.inverseEnd);
+}
+
+double areaOf(const TriangleElement& element)
+{
+  return 0.5 *
+    ((element.x[1] - element.x[0]) * (element.y[2] - element.y[0]) -
+      (element.x[2] - element.x[0]) * (element.y[1] - element.y[0]));
+}
+
+double cauchyMeasure(const TriangleElement& element)
+{
+  const double inverse = *std::max_element(element.inverse.begin(), element.inverse.end());
+  return areaOf(element) * inverse * inverse;
+}
+
 void addCauchy(const Extent& extent, double nearest, FieldBounds& bounds)
 {
-  const auto u = [](double t) { return 1.0 + 4.0 * t * t; };
-  // Largest values of t / u^2, 16 t / u^3 and 16 t^2 / u^3.
-  const double far = std::max(nearest, std::sqrt(1.0 / 12.0));
+  // Largest values of 16 t / u^3 and 16 t^2 / u^3.
   const double steep = std::max(nearest, std::sqrt(1.0 / 20.0));
   const double farSteep = std::max(nearest, std::sqrt(1.0 / 8.0));
   const double value = 1.0 / (u(nearest) * u(nearest));
-  const double farValue = far / (u(far) * u(far));
-  const double slope = 16.0 * steep / std::pow(u(steep), 3);
-  const double farSlope = 16.0 * farSteep * farSteep / std::pow(u(farSteep), 3);
+  const double slope = 16.0 * steep / integerPower(u(steep), 3);
+  const double farSlope = 16.0 * farSteep * farSteep / integerPower(u(farSteep), 3);
   const double m = extent.slope;
   const double inverse = 1.0 / extent.smallest;
-  bounds.value += extent.amplitude * std::min(extent.full, extent.measure * (value + m * farValue));
+  bounds.value +=
+    extent.amplitude * std::min(extent.full, extent.measure * mostOfCauchy(m, nearest));
   // |d/dt 1 / u^2| <= 4 / u^2, and second derivatives are below 80 / u^3.
   bounds.slope += extent.amplitude *
     (inverse * std::min(4.0 * extent.full, extent.measure * (slope + m * farSlope)) +
@@ -143,10 +171,9 @@ void addBounds(const SegmentElement& element, const ConvolutionKernel& kernel, d
   if (kernel.kind == KernelKind::Cauchy)
   {
     const double inverse = std::max(element.inverseStart, element.inverseEnd);
-    addCauchy(
-      { segmentAmplitude(kernel), std::abs(element.slope), 1.0 / inverse, element.length * inverse,
-        element.length * element.inverseStart * element.inverseEnd,
-        0.25 * kPi * std::pow(1.0 + 4.0 * nearest * nearest, -1.5) },
+    addCauchy({ segmentAmplitude(kernel), std::abs(element.slope), 1.0 / inverse,
+                cauchyMeasure(element), element.length * element.inverseStart * element.inverseEnd,
+                0.25 * kPi / (u(nearest) * std::sqrt(u(nearest))) },
       nearest, bounds);
     return;
   }
@@ -172,13 +199,11 @@ void addBounds(const TriangleElement& element, const ConvolutionKernel& kernel, 
   const double farthest = largestReach(element);
   const double nearest = distance / farthest;
   const double inverse = *std::max_element(element.inverse.begin(), element.inverse.end());
-  const double area = 0.5 *
-    ((element.x[1] - element.x[0]) * (element.y[2] - element.y[0]) -
-      (element.x[2] - element.x[0]) * (element.y[1] - element.y[0]));
+  const double area = areaOf(element);
   if (kernel.kind == KernelKind::Cauchy)
   {
-    addCauchy({ triangleAmplitude(kernel), element.slope, 1.0 / inverse, area * inverse * inverse,
-                area * inverse * inverse * inverse, 0.25 * kPi / (1.0 + 4.0 * nearest * nearest) },
+    addCauchy({ triangleAmplitude(kernel), element.slope, 1.0 / inverse, cauchyMeasure(element),
+                area * inverse * inverse * inverse, 0.25 * kPi / u(nearest) },
       nearest, bounds);
     return;
   }
@@ -193,6 +218,32 @@ void addBounds(const TriangleElement& element, const ConvolutionKernel& kernel, 
   const double tail = std::min(area, kPi * farthest * farthest) * inverse * inverse * inverse;
   add(
     { triangleAmplitude(kernel), element.slope, 1.0 / inverse, measure, tail, full }, most, bounds);
+}
+
+void CauchyBound::add(const SegmentElement& element, const ConvolutionKernel& kernel)
+{
+  box_.extend(boundsOf(element));
+  reach_ = std::max(reach_, hybridtree::largestReach(element));
+  measure_ += segmentAmplitude(kernel) * cauchyMeasure(element);
+  slope_ = std::max(slope_, std::abs(element.slope));
+}
+
+void CauchyBound::add(const TriangleElement& element, const ConvolutionKernel& kernel)
+{
+  box_.extend(boundsOf(element));
+  reach_ = std::max(reach_, hybridtree::largestReach(element));
+  measure_ += triangleAmplitude(kernel) * cauchyMeasure(element);
+  slope_ = std::max(slope_, element.slope);
+}
+
+double CauchyBound::distanceTo(const Box3& points) const
+{
+  return box_.exteriorDistance(points);
+}
+
+double CauchyBound::most(double distance) const
+{
+  return measure_ * mostOfCauchy(slope_, distance / reach_);
 }
 
 } // namespace hybridtree

@@ -33,4 +33,25 @@ void addBounds(const TriangleElement& element, const ConvolutionKernel& kernel, 
   FieldBounds& bounds);
 ///@}
 
+/// The same of the value of many elements with the Cauchy kernel, coarser: from their bounding box.
+class CauchyBound
+{
+public:
+  ///@{
+  void add(const SegmentElement& element, const ConvolutionKernel& kernel);
+  void add(const TriangleElement& element, const ConvolutionKernel& kernel);
+  ///@}
+
+  double largestReach() const { return reach_; }
+  double distanceTo(const Box3& points) const;
+  /// Of the sum of the fields at points at least `distance` away.
+  double most(double distance) const;
+
+private:
+  Box3 box_;
+  double reach_ = 0.0;
+  double measure_ = 0.0; // times amplitudes
+  double slope_ = 0.0;
+};
+
 } // namespace hybridtree

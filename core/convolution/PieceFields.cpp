@@ -13,7 +13,7 @@ PiecesNear::PiecesNear(const BlendGroups& groups, const Box3& box)
   groups.pieces.select(box, selection);
   const auto placeOf = [&](const auto* element, const std::vector<BlendPieces::Place>& places)
   { return &places[groups.pieces.index(element)]; };
-  std::vector<Piece> met;
+  std::vector<BlendPiece> met;
   met.reserve(selection.segments.size() + selection.triangles.size());
   for (const SegmentElement* segment : selection.segments)
   {
@@ -25,7 +25,7 @@ PiecesNear::PiecesNear(const BlendGroups& groups, const Box3& box)
   }
   std::vector<std::size_t> numbers;
   numbers.reserve(met.size());
-  for (const Piece& piece : met)
+  for (const BlendPiece& piece : met)
   {
     numbers.push_back(numbers_.add(piece.place->group));
   }
@@ -46,6 +46,18 @@ PiecesNear::PiecesNear(const BlendGroups& groups, const Box3& box)
   }
 }
 
+PiecesNear::PiecesNear(const BlendGroups& groups, const std::vector<std::int32_t>& members)
+  : groups_(groups), numbers_(groups.size()), begin_{ 0 }
+{
+  for (const std::int32_t member : members)
+  {
+    numbers_.add(member);
+    const std::vector<BlendPiece>& own = groups.farGroups[static_cast<std::size_t>(member)].pieces;
+    pieces_.insert(pieces_.end(), own.begin(), own.end());
+    begin_.push_back(pieces_.size());
+  }
+}
+
 PieceFields::PieceFields(const PiecesNear& pieces, PointBatch points)
   : pieces_(pieces)
   , kernel_(pieces.groups().whole.kernel())
@@ -53,11 +65,10 @@ PieceFields::PieceFields(const PiecesNear& pieces, PointBatch points)
   , farthest_(BlendShare(pieces.groups().control).farthest())
   , points_(points)
   , isKnown_(pieces.groupCount(), 0)
-  , isFarKnown_(pieces.groupCount() * pieces.groupCount(), 0)
+  , distancesAt_(pieces.size())
+  , farAt_(pieces.groupCount() * pieces.groupCount(), -1)
   , single_(pieces.size() * points.size)
-  , distances_(pieces.size() * pieces.groupCount())
   , fields_(pieces.groupCount() * points.size)
-  , far_(isFarKnown_.size() * points.size)
 {
 }
 
@@ -78,7 +89,7 @@ void PieceFields::integrate(std::size_t number)
   const std::size_t groups = pieces_.groupCount();
   for (std::size_t k = pieces_.begin(number); k < pieces_.end(number); ++k)
   {
-    const PiecesNear::Piece& piece = pieces_[k];
+    const BlendPiece& piece = pieces_[k];
     double* value = this->row(single_, k);
     std::fill_n(value, points_.size, 0.0);
     if (piece.segment)
@@ -93,8 +104,9 @@ void PieceFields::integrate(std::size_t number)
     {
       sum[i] += value[i];
     }
-    double* distances = distances_.data() + k * groups;
-    std::fill_n(distances, groups, farthest_);
+    distancesAt_[k] = distances_.size();
+    distances_.resize(distances_.size() + groups, farthest_);
+    double* distances = distances_.data() + distancesAt_[k];
     distances[number] = 0.0;
     for (const GroupDistance& near : piece.place->distances)
     {
@@ -109,15 +121,16 @@ void PieceFields::integrate(std::size_t number)
 
 const double* PieceFields::far(std::size_t number, std::size_t j)
 {
-  const std::size_t pair = number * pieces_.groupCount() + j;
-  double* sum = this->row(far_, pair);
-  if (isFarKnown_[pair])
+  std::int32_t& at = farAt_[number * pieces_.groupCount() + j];
+  const std::size_t size = points_.size;
+  if (at >= 0)
   {
-    return sum;
+    return far_.data() + static_cast<std::size_t>(at) * size;
   }
-  isFarKnown_[pair] = 1;
   this->field(number);
-  std::fill_n(sum, points_.size, 0.0);
+  at = static_cast<std::int32_t>(far_.size() / size);
+  far_.resize(far_.size() + size, 0.0);
+  double* sum = far_.data() + far_.size() - size;
   for (std::size_t k = pieces_.begin(number); k < pieces_.end(number); ++k)
   {
     const double* value = this->row(single_, k);
@@ -133,7 +146,7 @@ const double* PieceFields::far(std::size_t number, std::size_t j)
 void PieceFields::addFieldAndGradient(
   std::size_t piece, PointBatch points, double* value, VectorBatch gradient) const
 {
-  const PiecesNear::Piece& of = pieces_[piece];
+  const BlendPiece& of = pieces_[piece];
   if (of.segment)
   {
     kernels_.addSegmentsWithGradient({ &of.segment, 1 }, kernel_, points, value, gradient);

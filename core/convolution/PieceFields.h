@@ -7,22 +7,18 @@
 namespace hybridtree
 {
 
-/// Pieces that reach a box, by groups. Groups have numbers here: those that have such pieces.
+/// Pieces near some points, by groups. Groups have numbers here.
 class PiecesNear
 {
 public:
-  struct Piece
-  {
-    const SegmentElement* segment;   ///< or
-    const TriangleElement* triangle; ///< null for a segment
-    const BlendPieces::Place* place;
-  };
-
+  /// Those that reach a box, and their groups.
   PiecesNear(const BlendGroups& groups, const Box3& box);
+  /// All of some groups. \pre groups.farGroups.
+  PiecesNear(const BlendGroups& groups, const std::vector<std::int32_t>& members);
 
   const BlendGroups& groups() const { return groups_; }
   std::size_t size() const { return pieces_.size(); }
-  const Piece& operator[](std::size_t k) const { return pieces_[k]; }
+  const BlendPiece& operator[](std::size_t k) const { return pieces_[k]; }
 
   std::size_t groupCount() const { return numbers_.size(); }
   std::int32_t group(std::size_t number) const { return numbers_.group(number); }
@@ -36,7 +32,7 @@ public:
 private:
   const BlendGroups& groups_;
   GroupNumbers numbers_;
-  std::vector<Piece> pieces_;
+  std::vector<BlendPiece> pieces_;
   std::vector<std::size_t> begin_;
 };
 
@@ -50,14 +46,15 @@ public:
   const PiecesNear& pieces() const { return pieces_; }
   PointBatch points() const { return points_; }
 
+  bool isKnown(std::size_t number) const { return isKnown_[number]; }
   /// Of a group: the sum of f_c over its pieces, per point.
   const double* field(std::size_t number);
-  /// The sum of f_c d(c, j) over the pieces of a group.
+  /// The sum of f_c d(c, j) over the pieces of a group. Valid until the next call.
   const double* far(std::size_t number, std::size_t j);
   /// d(c, j) for all numbers j. \pre field() of its group was asked for.
   const double* distances(std::size_t piece) const
   {
-    return distances_.data() + piece * pieces_.groupCount();
+    return distances_.data() + distancesAt_[piece];
   }
   void addFieldAndGradient(
     std::size_t piece, PointBatch points, double* value, VectorBatch gradient) const;
@@ -71,12 +68,13 @@ private:
   const ConvolutionKernels& kernels_;
   double farthest_;
   PointBatch points_;
-  std::vector<char> isKnown_;    // per group
-  std::vector<char> isFarKnown_; // per pair of groups
-  ScratchArray single_;          // per piece and point
-  ScratchArray distances_;       // per piece and group
-  ScratchArray fields_;          // per group and point
-  ScratchArray far_;             // per pair of groups and point
+  std::vector<char> isKnown_;            // per group
+  std::vector<std::size_t> distancesAt_; // per piece
+  std::vector<double> distances_;        // per group, of pieces of known ones
+  std::vector<std::int32_t> farAt_;      // per pair of groups: a row of far_, or -1
+  std::vector<double> far_;              // rows
+  ScratchArray single_;                  // per piece and point
+  ScratchArray fields_;                  // per group and point
 };
 
 } // namespace hybridtree

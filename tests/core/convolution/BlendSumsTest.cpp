@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 // The pruned sums beside their definition (BlendedField.h).
@@ -59,12 +60,24 @@ GroupedElements tangle(Random& random, int limb)
   return elements;
 }
 
+// Where most of the field is, of whichever kernel.
+Box3 around(const GroupedElements& elements)
+{
+  Box3 box;
+  for (const Vec3& p : elements.points)
+  {
+    box.extend(p);
+  }
+  return Box3(Vec3(box.min() - Vec3::Ones()), Vec3(box.max() + Vec3::Ones()));
+}
+
 // The sums at one point, from all elements and pieces.
 class Definition
 {
 public:
-  Definition(const GroupedElements& elements, const BlendingControl& control)
-    : control_(control), pieces_(makeBlendPieces(elements, control))
+  Definition(const GroupedElements& elements, const BlendingControl& control,
+    const ConvolutionKernel& kernel)
+    : control_(control), kernel_(kernel), pieces_(makeBlendPieces(elements, control))
   {
   }
 
@@ -90,24 +103,24 @@ public:
     {
       best = std::max(best, this->sum(static_cast<std::int32_t>(i), own, here, places));
     }
-    return best;
+    return kernel_.kind == KernelKind::Cauchy ? faded(best) : best;
   }
 
 private:
-  static double valueOf(const SegmentElement& element, const Vec3& p)
+  double valueOf(const SegmentElement& element, const Vec3& p) const
   {
     const SegmentElement* pointer = &element;
     double value = 0.0;
-    compactConvolutionKernels().addSegments(
-      { &pointer, 1 }, {}, { &p.x(), &p.y(), &p.z(), 1 }, &value);
+    convolutionKernels(kernel_.kind)
+      .addSegments({ &pointer, 1 }, kernel_, { &p.x(), &p.y(), &p.z(), 1 }, &value);
     return value;
   }
-  static double valueOf(const TriangleElement& element, const Vec3& p)
+  double valueOf(const TriangleElement& element, const Vec3& p) const
   {
     const TriangleElement* pointer = &element;
     double value = 0.0;
-    compactConvolutionKernels().addTriangles(
-      { &pointer, 1 }, {}, { &p.x(), &p.y(), &p.z(), 1 }, &value);
+    convolutionKernels(kernel_.kind)
+      .addTriangles({ &pointer, 1 }, kernel_, { &p.x(), &p.y(), &p.z(), 1 }, &value);
     return value;
   }
 
@@ -152,23 +165,31 @@ private:
   }
 
   BlendingControl control_;
+  ConvolutionKernel kernel_;
   BlendPieces pieces_;
 };
 
-class BlendSumsCases : public testing::TestWithParam<BlendingControl>
+struct Case
+{
+  BlendingControl control;
+  ConvolutionKernel kernel;
+};
+
+class BlendSumsCases : public testing::TestWithParam<Case>
 {
 };
 
 TEST_P(BlendSumsCases, AreTheLargestSumOfTheDefinition)
 {
+  const auto& [control, kernel] = GetParam();
   Random random(11);
   int controlled = 0;
   for (const int limb : { 1, 3, 6 })
   {
     const GroupedElements elements = tangle(random, limb);
-    const Definition definition(elements, GetParam());
-    const BlendedField field({}, GetParam(), elements);
-    const PointList points = randomPoints(random, field.influenceBounds(), 600);
+    const Definition definition(elements, control, kernel);
+    const BlendedField field(kernel, control, elements);
+    const PointList points = randomPoints(random, around(elements), 500);
     std::vector<double> scattered(points.size(), 0.0);
     field.addField(nullptr, points, scattered.data());
     BlendSelection selection;
@@ -185,13 +206,73 @@ TEST_P(BlendSumsCases, AreTheLargestSumOfTheDefinition)
       controlled += expected < sum[k] - 1e-6;
     }
   }
-  EXPECT_GT(controlled, 40);
+  EXPECT_GT(controlled, 30);
 }
 
+TEST_P(BlendSumsCases, GradientsAreThoseOfTheField)
+{
+  const auto& [control, kernel] = GetParam();
+  Random random(12);
+  const GroupedElements elements = tangle(random, 4);
+  const BlendedField field(kernel, control, elements);
+  const PointList points = randomPoints(random, around(elements), 400);
+  std::vector<double> value(points.size(), 0.0);
+  VectorList gradient(points.size());
+  field.addFieldAndGradient(nullptr, points, value.data(), gradient);
+  const auto at = [&](const Vec3& p)
+  {
+    double sum = 0.0;
+    field.addField(nullptr, { &p.x(), &p.y(), &p.z(), 1 }, &sum);
+    return sum;
+  };
+  int steep = 0;
+  for (std::size_t k = 0; k < points.size(); ++k)
+  {
+    ASSERT_NEAR(value[k], at(points[k]), 1e-12);
+    constexpr double kStep = 1e-6;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const Vec3 step = kStep * Vec3::Unit(axis);
+      const double slope = (at(points[k] + step) - at(points[k] - step)) / (2.0 * kStep);
+      ASSERT_NEAR(gradient.batch()[k][axis], slope, 1e-4) << points[k].transpose();
+      steep += std::abs(slope) > 0.01;
+    }
+  }
+  EXPECT_GT(steep, 50);
+}
+
+TEST_P(BlendSumsCases, RangesHoldTheField)
+{
+  const auto& [control, kernel] = GetParam();
+  Random random(13);
+  const GroupedElements elements = tangle(random, 4);
+  const BlendedField field(kernel, control, elements);
+  const PointList centers = randomPoints(random, around(elements), 60);
+  for (std::size_t k = 0; k < centers.size(); ++k)
+  {
+    const Vec3 half = random.uniform(0.005, 0.3) * Vec3::Ones();
+    const Box3 box(Vec3(centers[k] - half), Vec3(centers[k] + half));
+    BlendSelection selection;
+    field.select(box, selection);
+    const Interval range = field.range(selection, box);
+    const PointList points = randomPoints(random, box, 50);
+    std::vector<double> value(points.size(), 0.0);
+    field.addField(&selection, points, value.data());
+    EXPECT_LE(range.min, *std::min_element(value.begin(), value.end()));
+    EXPECT_GE(range.max, *std::max_element(value.begin(), value.end()));
+  }
+}
+
+constexpr ConvolutionKernel kQuadratic;
+constexpr ConvolutionKernel kCubic{ KernelKind::Compact, 3, 1.7 };
+constexpr ConvolutionKernel kCauchy{ KernelKind::Cauchy, 2, 2.0 };
+
 INSTANTIATE_TEST_SUITE_P(Controls, BlendSumsCases,
-  testing::Values(BlendingControl{ BlendingKind::Neighbours, 0.5 },
-    BlendingControl{ BlendingKind::Neighbours, 1.0 },
-    BlendingControl{ BlendingKind::Neighbours, 2.25 }, BlendingControl{ BlendingKind::Paper }));
+  testing::Values(Case{ { BlendingKind::Neighbours, 0.5 }, kQuadratic },
+    Case{ { BlendingKind::Neighbours, 1.0 }, kCubic },
+    Case{ { BlendingKind::Neighbours, 2.25 }, kQuadratic },
+    Case{ { BlendingKind::Paper }, kQuadratic }, Case{ { BlendingKind::Neighbours, 0.7 }, kCauchy },
+    Case{ { BlendingKind::Paper }, kCauchy }));
 
 } // namespace
 } // namespace hybridtree::test

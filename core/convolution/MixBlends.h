@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "core/convolution/BlendGroups.h"
+
+namespace hybridtree
+{
+
+/// The field under blending control by its definition (BlendedField.h), before the fading of the
+/// Cauchy kernel: the largest of the sums G_i.
+///
+/// Each piece near the points is integrated once for all sums (BlendMixture). With the Cauchy
+/// kernel first one sum is taken, and then those that bounds leave a chance to be larger.
+///
+/// Overwrites `value`, and `gradient` unless null. When groups.isLocal() both hold the plain sum
+/// before, and keep it where that is the field.
+void mixBlends(
+  const BlendGroups& groups, PointBatch points, double* value, const VectorBatch* gradient);
+
+} // namespace hybridtree
