@@ -291,12 +291,13 @@ void table3(int threads, int rounds, bool all)
       ? "(flat " + std::to_string(report.samplePoints) + ")"
       : std::to_string(report.samplePoints);
     std::printf("%-16s %9.1f ms (%.1f of all processors)  %6.1f times as fast (%.1f by processor "
-                "time)  samples %s (1/%.0f)  %zu triangles, %zu kept, %d round%s, %s\n",
+                "time)  samples %s (1/%.0f)  %zu triangles, %zu kept, %zu cells marked, %zu at "
+                "the border, %d round%s, %s\n",
       kNames[m].c_str(), 1e3 * median(times[m]), 1e3 * median(processorTimes[m]),
       medianRatio(times[0], times[m]), medianRatio(processorTimes[0], processorTimes[m]),
       samples.c_str(), double(allSamples) / double(std::max<std::size_t>(report.samplePoints, 1)),
-      meshes[m]->triangles.size(), report.keptTriangles, report.rounds,
-      report.rounds == 1 ? "" : "s",
+      meshes[m]->triangles.size(), report.keptTriangles, report.markedCells, report.borderCells,
+      report.rounds, report.rounds == 1 ? "" : "s",
       isClosedManifold(*meshes[m]) ? "closed manifold" : "NOT CLOSED");
   }
   const double local = median(times[2]);
@@ -376,10 +377,9 @@ void pairs(const char* file, int count, int rounds)
     const BlendMeshReport local = pair.report(BlendMethod::NodeBased, edge);
     const bool isGlobal = pair.report(BlendMethod::Automatic, edge).method == BlendMethod::Global;
     csv << pair.ratio() << ',' << median(times[0]) << ',' << median(times[1]) << ','
-        << median(times[2]) << ',' << (isGlobal ? 0 : 1) << ',' << local.markedCells
-        << ',' << local.borderCells << ',' << local.keptTriangles << ',' << local.cutTriangles
-        << ',' << local.newTriangles << ',' << pair.report(BlendMethod::Global, edge).samplePoints
-        << '\n';
+        << median(times[2]) << ',' << (isGlobal ? 0 : 1) << ',' << local.markedCells << ','
+        << local.borderCells << ',' << local.keptTriangles << ',' << local.cutTriangles << ','
+        << local.newTriangles << ',' << pair.report(BlendMethod::Global, edge).samplePoints << '\n';
   }
 }
 

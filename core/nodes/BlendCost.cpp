@@ -10,20 +10,22 @@ namespace
 
 // Of one value of the field.
 constexpr double kSkeletonSample = 0.015;
-constexpr double kMeshSample = 1.6;
+constexpr double kMeshSample = 2.2;
 
-// Per point of the surface: bricks of 8^3 samples have some hundred points each.
-constexpr double kPointsPerSquare = 1.4;
+// A plane cuts 1.5 edges for each of its squares, in the mean over directions. Bricks of 8^3
+// samples have some hundred points each.
+constexpr double kPointsPerSquare = 1.5;
 constexpr double kSamplesPerPoint = 5.0;
-constexpr double kPoint = 0.12; // to place and to connect
+constexpr double kPoint = 0.22; // to place and to connect
 
-// Per marked cell. Where there are few, most are at the border, which is cut, joined and mended;
-// where there are many, local has lost already.
+// The work is at the border, which is cut, joined and mended. Where little is marked, and the
+// choice is open, all that is inside comes with it.
 constexpr double kSamplesPerCell = 2.0;
-constexpr double kCell = 5.0;
+constexpr double kBorderCell = 4.8;
+constexpr double kLeastBorder = 0.3; // of all marked cells
 
-// Per square of what is kept: two triangles or more, checked and copied.
-constexpr double kKeptSquare = 0.13;
+// Per square of what is kept: three triangles, checked and copied.
+constexpr double kKeptSquare = 0.14;
 
 } // namespace
 
@@ -34,17 +36,17 @@ double BlendCost::global(double squares) const
   return kPointsPerSquare * squares * (kPoint + kSamplesPerPoint * perSample_);
 }
 
-double BlendCost::local(std::size_t cells, double squares) const
+double BlendCost::local(const CellSet& cells, double squares) const
 {
-  return static_cast<double>(cells) * (kCell + kSamplesPerCell * perSample_) +
-    kKeptSquare * squares;
+  return static_cast<double>(cells.borderCount()) * kBorderCell +
+    static_cast<double>(cells.size()) * kSamplesPerCell * perSample_ + kKeptSquare * squares;
 }
 
 std::size_t BlendCost::mostCells(double squares) const
 {
-  const double left = this->global(squares) - this->local(0, squares);
-  return static_cast<std::size_t>(
-    std::clamp(left / (kCell + kSamplesPerCell * perSample_), 0.0, 1e15));
+  const double left = this->global(squares) - this->local({}, squares);
+  const double perCell = kLeastBorder * kBorderCell + kSamplesPerCell * perSample_;
+  return static_cast<std::size_t>(std::clamp(left / perCell, 0.0, 1e15));
 }
 
 } // namespace hybridtree

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "core/stitch/CellSet.h"
+
 #include <cstddef>
 
 namespace hybridtree
 {
 
 /// What the ways to mesh a blend cost, by counting what they do: to choose the cheapest. Costs are
-/// microseconds of one processor of a few years ago; only their ratios matter. The counts are those
-/// of the case; what one of each costs was measured on balls and scans, where it hardly varies.
+/// microseconds of one processor; only their ratios matter. The counts are those of the case; what
+/// one of each costs was fitted once, to 250 pairs of balls and to blends on a scan.
 class BlendCost
 {
 public:
@@ -19,9 +21,9 @@ public:
   double global(double squares) const;
 
   /// Of a patch over marked cells, and the copy of what is kept.
-  double local(std::size_t cells, double squares) const;
+  double local(const CellSet& cells, double squares) const;
 
-  /// The most marked cells for which local is cheaper.
+  /// More marked cells than this, and local is hardly ever cheaper: no need to find them all.
   std::size_t mostCells(double squares) const;
 
 private:

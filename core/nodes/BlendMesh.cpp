@@ -346,6 +346,12 @@ std::vector<std::string> MeshWarnings::all() const
 namespace
 {
 
+std::size_t keepingCount(const std::vector<MarkTerm>& terms)
+{
+  return static_cast<std::size_t>(
+    std::count_if(terms.begin(), terms.end(), [](const MarkTerm& term) { return term.kept; }));
+}
+
 /// The way from parts to a mesh, which is the same for all blends.
 TriangleMesh meshByParts(const Node& blend, const std::vector<BlendPart>& parts,
   std::vector<MarkTerm> terms, const Interaction& interaction, const IslandField& field,
@@ -361,19 +367,29 @@ TriangleMesh meshByParts(const Node& blend, const std::vector<BlendPart>& parts,
     return markedCells(
       terms, interaction, grid, budget, mostCells, ProgressPart(progress, 0.3, 0.4));
   };
-  // Skeletons are sampled whole in no time: there the marks are counted before anything is meshed.
-  if (choose && !blend.isFaceted() && !mark(cost.mostCells(squaresOf(terms, edgeLength))))
+  const auto markIfCheaper = [&](double squares)
+  {
+    std::optional<CellSet> cells = mark(cost.mostCells(squares));
+    return cells && cost.local(*cells, squares) <= cost.global(squares) ? cells : std::nullopt;
+  };
+  std::optional<CellSet> cells;
+  // Skeletons are sampled whole in no time: there the choice comes before anything is meshed.
+  const bool chooseFirst = choose && !blend.isFaceted();
+  if (chooseFirst && !(cells = markIfCheaper(squaresOf(terms, edgeLength))))
   {
     return wholeLattice(blend, edgeLength, report, progress);
   }
+  const std::size_t keeping = keepingCount(terms);
   const std::vector<KeptPart> kept =
     keptMeshes(parts, terms, edgeLength, ProgressPart(progress, 0.0, 0.3));
   if (kept.empty())
   {
     return wholeLattice(blend, edgeLength, report, ProgressPart(progress, 0.3, 1.0));
   }
-  std::optional<CellSet> cells =
-    mark(choose ? cost.mostCells(squaresOf(kept, edgeLength)) : kAllCells);
+  if (!chooseFirst || keepingCount(terms) < keeping)
+  {
+    cells = choose ? markIfCheaper(squaresOf(kept, edgeLength)) : mark(kAllCells);
+  }
   const ProgressPart rest(progress, 0.4, 1.0);
   return cells ? stitchOver(blend, field, kept, std::move(*cells), grid, report, rest)
                : wholeLattice(blend, edgeLength, report, rest);

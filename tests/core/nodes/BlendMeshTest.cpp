@@ -21,6 +21,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <map>
 
@@ -325,6 +326,46 @@ TEST(BlendMesh, EditsGiveWhatAFreshStartGives)
     }
   }
   EXPECT_GT(taken, 30u);
+}
+
+// With a map above: what was not edited has the same image as before.
+TEST(BlendMesh, EditsBelowAMapKeepWhatWasMade)
+{
+  Random random(711);
+  const Affine3 map = Eigen::Translation3d(1, 2, 3) * random.rotation() * Eigen::Scaling(1.5);
+  std::vector<NodePtr> children{ meshLeaf(bumpySphere(0.6, 4), 0.1),
+    ball(Vec3(0.6, 0, 0), 0.03, 0.06), ball(Vec3(0, 0.6, 0), 0.03, 0.06),
+    ball(Vec3(-0.6, 0, 0), 0.03, 0.06) };
+  const auto images = [&] { return makeBlend(children, {})->affine(map)->children(); };
+  const std::vector<NodePtr> before = images();
+  make(before, BlendMethod::PrimitiveBased, 0.08);
+  children[1] = ball(Vec3(0.6, 0.02, 0), 0.03, 0.06);
+  const std::vector<NodePtr> after = images();
+  EXPECT_EQ(before[0], after[0]);
+  EXPECT_NE(before[1], after[1]);
+  const Made edited = make(after, BlendMethod::PrimitiveBased, 0.08);
+  EXPECT_EQ(edited.report.islands, 3u);
+  EXPECT_EQ(edited.report.rememberedIslands, 2u);
+  forgetBlends();
+  expectSame(*edited.mesh, *make(after, BlendMethod::PrimitiveBased, 0.08).mesh);
+}
+
+// The default edge length, and with it the lattice, stays when a part moves a bit outward.
+TEST(BlendMesh, SmallMovesKeepTheDefaultEdgeLength)
+{
+  int changes = 0;
+  double last = 0.0;
+  for (int k = 0; k < 100; ++k)
+  {
+    const NodePtr blend =
+      makeBlend({ ball(Vec3(0, 0, 0), 0.5, 1.0), ball(Vec3(1.0 + 0.01 * k, 0, 0), 0.5, 1.0) }, {});
+    const double length = blend->defaultEdgeLength();
+    const double exact = blend->surfaceBounds().diagonal().norm() / 100.0;
+    EXPECT_LE(std::abs(std::log2(length / exact)), 1.0 / 16.0 + 1e-12);
+    changes += length != last ? 1 : 0;
+    last = length;
+  }
+  EXPECT_LE(changes, 6);
 }
 
 // A primitive that is gone may have left its address to the next one.
