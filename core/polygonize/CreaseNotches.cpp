@@ -6,8 +6,8 @@
 #include "core/polygonize/TriangleSides.h"
 
 #include <algorithm>
-#include <map>
 #include <set>
+#include <unordered_map>
 
 namespace hybridtree
 {
@@ -24,6 +24,20 @@ using Index = std::int32_t;
 /// The points of a site, as in NotchSite; the last one of a triangle is -1. The first one is the
 /// lowest, so that each site has one key.
 using SiteKey = std::array<Index, 4>;
+
+struct SiteHash
+{
+  std::size_t operator()(const SiteKey& key) const
+  {
+    std::uint64_t hash = 0;
+    for (const Index v : key)
+    {
+      hash = (hash ^ static_cast<std::uint32_t>(v)) * 0x9e3779b97f4a7c15u;
+      hash ^= hash >> 29;
+    }
+    return hash;
+  }
+};
 
 SiteKey triangleKey(const Triangle& corners)
 {
@@ -426,7 +440,7 @@ private:
   std::vector<bool> removed_;       ///< per triangle
   std::vector<std::size_t> region_; ///< triangles with a hot point
   TriangleSides sides_;             ///< of the region
-  std::map<SiteKey, NotchPoint> known_;
+  std::unordered_map<SiteKey, NotchPoint, SiteHash> known_;
   std::set<SiteKey> refused_;
   std::vector<SiteKey> makerOf_; ///< each triangle of this round
 };

@@ -24,11 +24,16 @@ constexpr int kJudging = 3;  // and the one until which it must look like a crea
 
 constexpr double kLeastAngle = 0.43; // 25 degrees, seen from near
 constexpr double kLeastShare = 0.5;  // of the first angle between the planes that is left there
+constexpr double kSmooth = 0.98; // cosine of the surface's normal to the mean of those of the rim
 
 // In cells.
 constexpr double kFlat = 0.08; // first guess of the height of what need not be looked at
+constexpr double kOffSmooth =
+  0.03; // and share, by which a smooth surface may be off what the normals
+constexpr double kOffShare = 0.3; // at the rim say
 constexpr double kLeastCrease = 0.2;
 constexpr double kLeastCurve = 0.3;
+constexpr double kLeastRise = 0.15; // first guess of a height that may be that of a curve
 constexpr double kFarthest = 2.0;
 constexpr double kOnSurface = 1e-6;
 constexpr double kReach = 0.3;       // in which the surface is looked for near a crease,
@@ -50,7 +55,7 @@ public:
     this->keepFar();
     for (Search& search : sites_)
     {
-      if (!this->findCrease(search))
+      if (!this->findCrease(search) && search.result->off >= kLeastRise * cell_)
       {
         this->rise(search);
       }
@@ -65,7 +70,8 @@ private:
     TouchingPlanes planes;
   };
 
-  /// Leaves out those that are on the surface, nearly, by one question for all.
+  /// Leaves out those that are on the surface, nearly, or as far below it as the normals of the rim
+  /// tell that a smooth one is: small balls. One question for all.
   void keepFar()
   {
     std::vector<Vec3> middles;
@@ -78,12 +84,20 @@ private:
     for (std::size_t k = 0; k < sites_.size(); ++k)
     {
       sites_[k].result->off = std::abs(planes[k].ahead);
-      if (!(sites_[k].result->off < kFlat * cell_))
+      if (!(sites_[k].result->off < kFlat * cell_) && !this->isSmooth(*sites_[k].site, planes[k]))
       {
         far.push_back(sites_[k]);
       }
     }
     sites_ = std::move(far);
+  }
+
+  bool isSmooth(const NotchSite& site, const TouchingPlane& plane) const
+  {
+    const double expected = site.smoothHeight();
+    return plane.normal.dot(site.middleNormal()) > kSmooth &&
+      std::abs(std::abs(plane.ahead) - std::abs(expected)) <
+      kOffSmooth * cell_ + kOffShare * std::abs(expected);
   }
 
   TouchingPlanes planesAt(const std::vector<Vec3>& points) const
@@ -230,6 +244,21 @@ Vec3 NotchSite::middleNormal() const
 {
   const Vec3 sum = normals[0] + normals[2];
   return (this->isEdge() ? sum : Vec3(sum + normals[1])).stableNormalized();
+}
+
+double NotchSite::smoothHeight() const
+{
+  // At distance d from the middle a surface of curvature k lies d^2 k / 2 lower, and its normal
+  // leans outward by d k.
+  const Vec3 center = this->middle();
+  const int step = this->isEdge() ? 2 : 1;
+  double sum = 0.0;
+  int points = 0;
+  for (int k = 0; k < count; k += step, ++points)
+  {
+    sum += normals[k].dot(rim[k] - center);
+  }
+  return 0.5 * sum / points;
 }
 
 double NotchSite::distance(const Vec3& p) const

@@ -22,6 +22,8 @@ struct NotchSite
   bool isEdge() const { return count == 4; }
   Vec3 middle() const;
   Vec3 middleNormal() const; ///< unit length; 0 where it is not known
+  /// Of a surface over the middle that is curved evenly, by the normals; negative in a hollow.
+  double smoothHeight() const;
   double distance(const Vec3& p) const;
 };
 

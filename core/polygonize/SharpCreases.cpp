@@ -376,7 +376,7 @@ std::size_t sharpenCreases(const FieldSource& field, const Lattice& lattice, std
   const std::size_t points = sharpener.run();
   return sharpener.isBent()
     ? points + mendNotches(field, lattice.cellSize, std::cos(kLeastAngle), first, mesh, progress)
-    : points; // X
+    : points;
 }
 
 } // namespace hybridtree
