@@ -21,8 +21,8 @@ constexpr double kPoint = 0.22; // to place and to connect
 // The work is at the border, which is cut, joined and mended. Where little is marked, and the
 // choice is open, all that is inside comes with it.
 constexpr double kSamplesPerCell = 2.0;
-constexpr double kBorderCell = 4.8;
-constexpr double kLeastBorder = 0.3; // of all marked cells
+constexpr double kBorderCell = 5.6;
+constexpr double kLeastBorder = 0.6; // of all marked cells, where they are few
 
 // Per square of what is kept: three triangles, checked and copied.
 constexpr double kKeptSquare = 0.14;
