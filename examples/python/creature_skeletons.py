@@ -6,6 +6,7 @@ Skeletons" (2002): a bretzel of 24 segments, an alien of 102 segments and 15 tri
 """
 from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
 
 class Skeleton:
@@ -53,6 +54,13 @@ class Skeleton:
         data.SetPolys(triangles)
         data.GetPointData().SetScalars(radii)
         return data
+
+    def write(self, path):
+        writer = vtkXMLPolyDataWriter()
+        writer.SetFileName(path)
+        writer.SetDataModeToBinary()
+        writer.SetInputData(self.polydata())
+        writer.Write()
 
 
 def bretzel():

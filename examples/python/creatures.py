@@ -10,7 +10,6 @@ import os
 
 import creature_skeletons
 from stage import *  # paraview.simple and our helpers
-from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
 folder = output_folder("creatures")
 globals().update(load_plugin())
@@ -19,11 +18,7 @@ globals().update(load_plugin())
 def skeleton_of(name):
     path = os.path.join(folder, name + "-skeleton.vtp")
     figure = getattr(creature_skeletons, name)()
-    writer = vtkXMLPolyDataWriter()
-    writer.SetFileName(path)
-    writer.SetDataModeToBinary()
-    writer.SetInputData(figure.polydata())
-    writer.Write()
+    figure.write(path)
     print(f"{name}: {len(figure.segments)} segments and {len(figure.triangles)} triangles")
     return XMLPolyDataReader(registrationName=name, FileName=[path])
 
