@@ -6,9 +6,8 @@
 #include "core/mesh/Remesh.h"
 #include "core/nodes/LatticeMesh.h"
 #include "core/nodes/LocalPoints.h"
+#include "core/nodes/MappedMesh.h"
 #include "core/skeletons/SkeletonFactory.h"
-
-#include <Eigen/SVD>
 
 #include <algorithm>
 #include <cmath>
@@ -23,13 +22,6 @@ namespace
 double roundingAt(const Box3& box)
 {
   return 1e-14 * (box.min().cwiseAbs().maxCoeff() + box.max().cwiseAbs().maxCoeff());
-}
-
-// The middle one of the factors by which the map stretches three directions at right angles. A mesh
-// made finer by it comes out about right in two of them, and is split or thinned in the third.
-double middleStretch(const std::optional<Affine3>& map)
-{
-  return map ? Eigen::JacobiSVD<Mat3>(map->linear()).singularValues()[1] : 1.0;
 }
 
 // Slope of the signed distance, by differences: the gradient that skeletons give ends at their
@@ -293,8 +285,9 @@ TriangleMesh Primitive::makeMesh(double edgeLength, const Progress& progress) co
     return {};
   }
   progress.check();
+  const double stretch = placement ? middleStretch(placement->map) : 1.0;
   std::optional<TriangleMesh> direct =
-    skeleton_->offsetMesh(*potential_.surfaceRadius(), edgeLength / middleStretch(this->map()));
+    skeleton_->offsetMesh(*potential_.surfaceRadius(), edgeLength / stretch);
   if (!direct)
   {
     return latticeMesh(*this, edgeLength, progress);
@@ -303,7 +296,7 @@ TriangleMesh Primitive::makeMesh(double edgeLength, const Progress& progress) co
   mesh.sourceLeaf.assign(mesh.triangles.size(), 0);
   if (placement)
   {
-    this->mapMesh(mesh);
+    applyMap(placement->map, mesh);
     RemeshOptions options;
     options.edgeLength = edgeLength;
     remeshStretched(
@@ -313,24 +306,6 @@ TriangleMesh Primitive::makeMesh(double edgeLength, const Progress& progress) co
       progress);
   }
   return mesh;
-}
-
-void Primitive::mapMesh(TriangleMesh& mesh) const
-{
-  const Placement* placement = this->placement();
-  const Mat3 toNormals = placement->inverse.linear().transpose();
-  for (std::size_t k = 0; k < mesh.points.size(); ++k)
-  {
-    mesh.points[k] = placement->map * mesh.points[k];
-    mesh.normals[k] = (toNormals * mesh.normals[k]).normalized();
-  }
-  if (placement->map.linear().determinant() < 0.0)
-  {
-    for (Triangle& triangle : mesh.triangles)
-    {
-      std::swap(triangle[1], triangle[2]);
-    }
-  }
 }
 
 void Primitive::projectOntoSurface(std::vector<Vec3>& points, std::vector<Vec3>& normals) const

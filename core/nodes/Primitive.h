@@ -74,8 +74,6 @@ private:
   Box3 offsetBounds(double radius) const;
   Box3 toOwnSpace(const Box3& box) const;
 
-  /// From the leaf's own space to that of the node.
-  void mapMesh(TriangleMesh& mesh) const;
   void projectOntoSurface(std::vector<Vec3>& points, std::vector<Vec3>& normals) const;
 
   // No more than it takes: a tree of 250 primitives is to fit into 64 KiB ([HT] 6.3). Bounds and

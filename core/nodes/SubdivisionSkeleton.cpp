@@ -3,7 +3,6 @@
 
 #include "core/base/Error.h"
 #include "core/geometry/IntervalMath.h"
-#include "core/nodes/EnumNames.h"
 #include "core/nodes/LocalPoints.h"
 #include "core/nodes/Membership.h"
 #include "core/nodes/SubdivisionSkeletonMesh.h"
@@ -17,147 +16,6 @@ namespace hybridtree
 {
 namespace
 {
-
-constexpr EnumNames<SubdivisionScheme, 2> kSchemes{ "Scheme", "scheme",
-  { "approximating", "interpolating" } };
-constexpr EnumNames<KernelKind, 2> kKernels{ "Kernel", "kernel", { "compact", "cauchy" } };
-constexpr EnumNames<BlendingKind, 3> kBlendings{ "Blending", "blending",
-  { "all", "neighbours", "paper" } };
-constexpr EnumNames<SkeletonRadius, 2> kRadii{ "Radius", "radius", { "linear", "constant" } };
-
-// The kernels' reaches at the corners of one element.
-template <std::size_t N>
-std::array<double, N> reachesOf(const RefinedSkeleton& skeleton,
-  const std::array<std::int32_t, N>& corners, const SubdivisionSkeletonOptions& options)
-{
-  std::array<double, N> reaches;
-  for (std::size_t k = 0; k < N; ++k)
-  {
-    reaches[k] =
-      options.kernel.influenceRatio * skeleton.radii[static_cast<std::size_t>(corners[k])];
-  }
-  if (options.radius == SkeletonRadius::Constant)
-  {
-    reaches.fill(std::accumulate(reaches.begin(), reaches.end(), 0.0) / N);
-  }
-  return reaches;
-}
-
-// Weights of the parent's corners.
-std::array<double, 3> weightsAt(double u)
-{
-  return { 1.0 - u, u, 0.0 };
-}
-
-std::array<double, 3> weightsAt(const Eigen::Vector2d& place)
-{
-  return { 1.0 - place[0] - place[1], place[0], place[1] };
-}
-
-template <std::size_t N, typename Places>
-GroupedElement<N> child(const RefinedSkeleton& skeleton, const std::array<std::int32_t, N>& corners,
-  const Places& places, std::size_t group, const SubdivisionSkeletonOptions& options)
-{
-  GroupedElement<N> element{ corners, reachesOf(skeleton, corners, options), {},
-    static_cast<std::int32_t>(group) };
-  for (std::size_t k = 0; k < N; ++k)
-  {
-    element.weights[k] = weightsAt(places[k]);
-  }
-  return element;
-}
-
-// The children of one coarse element are a group: coarse segments first.
-GroupedElements groupedElements(const SkeletonGraph& coarse, const RefinedSkeleton& skeleton,
-  const SubdivisionSkeletonOptions& options)
-{
-  GroupedElements elements;
-  elements.points = skeleton.points;
-  for (const double radius : skeleton.radii)
-  {
-    elements.reaches.push_back(options.kernel.influenceRatio * radius);
-  }
-  for (std::size_t k = 0; k < skeleton.segments.size(); ++k)
-  {
-    elements.segments.push_back(child(skeleton, skeleton.segments[k], skeleton.segmentParameters[k],
-      static_cast<std::size_t>(skeleton.segmentParents[k]), options));
-  }
-  for (std::size_t k = 0; k < skeleton.triangles.size(); ++k)
-  {
-    elements.triangles.push_back(
-      child(skeleton, skeleton.triangles[k], skeleton.triangleParameters[k],
-        coarse.segments.size() + static_cast<std::size_t>(skeleton.triangleParents[k]), options));
-  }
-  for (const SkeletonSegment& ends : coarse.segments)
-  {
-    elements.groups.push_back({ ends[0], ends[1], -1 });
-  }
-  elements.groups.insert(elements.groups.end(), coarse.triangles.begin(), coarse.triangles.end());
-  return elements;
-}
-
-SubdivisionSkeleton::ShapePtr makeShape(
-  const SkeletonGraph& graph, const SubdivisionSkeletonOptions& options)
-{
-  validate(options.kernel);
-  validate(options.blending);
-  kBlendings.check(options.blending.kind);
-  kSchemes.check(options.scheme);
-  kKernels.check(options.kernel.kind);
-  kRadii.check(options.radius);
-  if (!(options.refinement > 0.0 && options.refinement <= 1.0))
-  {
-    throw InvalidParameter("Refinement", options.refinement, "above 0 and at most 1");
-  }
-  RefinedSkeleton refined = subdivide(graph, options.scheme, options.level);
-  BlendedField field(options.kernel, options.blending, groupedElements(graph, refined, options));
-  return std::make_shared<SubdivisionSkeleton::Shape>(SubdivisionSkeleton::Shape{
-    graph, options, std::move(refined), std::move(field), numberPieces(graph) });
-}
-
-template <std::size_t N>
-std::vector<std::int64_t> flat(const std::vector<std::array<std::int32_t, N>>& elements)
-{
-  std::vector<std::int64_t> indices;
-  for (const std::array<std::int32_t, N>& element : elements)
-  {
-    indices.insert(indices.end(), element.begin(), element.end());
-  }
-  return indices;
-}
-
-// The inverse of flat().
-template <std::size_t N, typename Number>
-std::vector<std::array<Number, N>> grouped(const std::vector<Number>& numbers, const char* name)
-{
-  if (numbers.size() % N != 0)
-  {
-    throw InvalidText("Parameter \"" + std::string(name) + "\" has " +
-      std::to_string(numbers.size()) + " numbers; it must have a multiple of " + std::to_string(N) +
-      ".");
-  }
-  std::vector<std::array<Number, N>> groups(numbers.size() / N);
-  for (std::size_t k = 0; k < numbers.size(); ++k)
-  {
-    groups[k / N][k % N] = numbers[k];
-  }
-  return groups;
-}
-
-template <std::size_t N>
-std::vector<std::array<std::int32_t, N>> indices(const Parameters& parameters, const char* name)
-{
-  std::vector<std::array<std::int32_t, N>> elements;
-  for (const std::array<std::int64_t, N>& group : grouped<N>(parameters.getInts(name), name))
-  {
-    std::array<std::int32_t, N>& element = elements.emplace_back();
-    // What does not fit is no index of a point either.
-    std::transform(group.begin(), group.end(), element.begin(),
-      [](std::int64_t index)
-      { return static_cast<std::int32_t>(std::clamp<std::int64_t>(index, -1, INT32_MAX)); });
-  }
-  return elements;
-}
 
 void clear(std::size_t count, double* value)
 {
@@ -398,36 +256,6 @@ std::optional<SurfaceField> SubdivisionSkeleton::surfaceField() const
     scale * (kernel.influenceRatio - 1.0) * radius, kernel.exponent };
 }
 
-Parameters SubdivisionSkeleton::parameters() const
-{
-  const SubdivisionSkeletonOptions& options = this->options();
-  Parameters parameters;
-  std::vector<double> points;
-  for (const Vec3& point : this->coarse().points)
-  {
-    points.insert(points.end(), point.data(), point.data() + 3);
-  }
-  parameters.set("points", Parameters::Value(std::move(points)));
-  parameters.set("radii", Parameters::Value(this->coarse().radii));
-  parameters.set("segments", Parameters::Value(flat(this->coarse().segments)));
-  parameters.set("triangles", Parameters::Value(flat(this->coarse().triangles)));
-  kSchemes.describe(options.scheme, parameters);
-  parameters.set("level", options.level);
-  kKernels.describe(options.kernel.kind, parameters);
-  parameters.set("exponent", options.kernel.exponent);
-  parameters.set("influenceRatio", options.kernel.influenceRatio);
-  kRadii.describe(options.radius, parameters);
-  kBlendings.describe(options.blending.kind, parameters);
-  parameters.set("blendDistance", options.blending.distance);
-  parameters.set("refinement", options.refinement);
-  parameters.set("negative", options.negative);
-  if (placement_)
-  {
-    parameters.set("map", placement_->map);
-  }
-  return parameters;
-}
-
 TriangleMesh SubdivisionSkeleton::makeMesh(double edgeLength, const Progress& progress) const
 {
   std::string warning;
@@ -457,7 +285,8 @@ NodePtr makeSubdivisionSkeleton(
   const std::optional<double> scale = similarityScale(map);
   if (!scale || map.matrix() == Affine3::Identity().matrix())
   {
-    return std::make_shared<SubdivisionSkeleton>(makeShape(graph, options), map);
+    return std::make_shared<SubdivisionSkeleton>(
+      SubdivisionSkeleton::makeShape(graph, options), map);
   }
   SkeletonGraph image = graph;
   for (Vec3& point : image.points)
@@ -468,35 +297,8 @@ NodePtr makeSubdivisionSkeleton(
   {
     radius *= *scale;
   }
-  return std::make_shared<SubdivisionSkeleton>(makeShape(image, options), Affine3::Identity());
-}
-
-NodePtr subdivisionSkeletonFromParameters(
-  const Parameters& parameters, const std::vector<NodePtr>& children, const MeshLookup&)
-{
-  requireChildren("subdivisionSkeleton", children, 0);
-  SkeletonGraph graph;
-  for (const std::array<double, 3>& point : grouped<3>(parameters.getDoubles("points"), "points"))
-  {
-    graph.points.emplace_back(point[0], point[1], point[2]);
-  }
-  graph.radii = parameters.getDoubles("radii");
-  graph.segments = indices<2>(parameters, "segments");
-  graph.triangles = indices<3>(parameters, "triangles");
-  SubdivisionSkeletonOptions options;
-  options.scheme = kSchemes.from(parameters);
-  options.level = parameters.getInt("level");
-  options.kernel.kind = kKernels.from(parameters);
-  options.kernel.exponent = parameters.getInt("exponent");
-  options.kernel.influenceRatio = parameters.getDouble("influenceRatio");
-  options.radius = kRadii.from(parameters);
-  options.blending.kind = kBlendings.from(parameters);
-  options.blending.distance = parameters.getDouble("blendDistance");
-  options.refinement = parameters.getDouble("refinement");
-  options.negative = parameters.getBool("negative");
-  const Affine3 map =
-    parameters.has("map") ? parameters.getAffine("map") : Affine3(Affine3::Identity());
-  return makeSubdivisionSkeleton(graph, options, map);
+  return std::make_shared<SubdivisionSkeleton>(
+    SubdivisionSkeleton::makeShape(image, options), Affine3::Identity());
 }
 
 } // namespace hybridtree

@@ -56,10 +56,14 @@ public:
   };
   using ShapePtr = std::shared_ptr<const Shape>;
 
+  /// The refined skeleton and its field. \throws as makeSubdivisionSkeleton().
+  static ShapePtr makeShape(const SkeletonGraph& graph, const SubdivisionSkeletonOptions& options);
+
   /// \pre map is the identity or no similarity (makeSubdivisionSkeleton() sees to it).
   SubdivisionSkeleton(ShapePtr shape, const Affine3& map);
   ~SubdivisionSkeleton() override;
 
+  const ShapePtr& shape() const { return shape_; }
   const SkeletonGraph& coarse() const { return shape_->coarse; }
   const RefinedSkeleton& refined() const { return shape_->refined; }
   const SubdivisionSkeletonOptions& options() const { return shape_->options; }

@@ -3,7 +3,10 @@
 
 #include "core/base/Parallel.h"
 #include "core/geometry/PointTriangle.h"
+#include "core/mesh/Remesh.h"
 #include "core/nodes/LatticeMesh.h"
+#include "core/nodes/MappedMesh.h"
+#include "core/nodes/SurfaceProjection.h"
 #include "core/subdivision/SkeletonMesh.h"
 
 #include <algorithm>
@@ -72,27 +75,6 @@ SkeletonField fieldOf(const SubdivisionSkeleton& leaf)
     optionsKey(parameters) };
 }
 
-/// To the space of the node, of which the leaf is the shape in its own.
-void applyMap(const Affine3& map, TriangleMesh& mesh)
-{
-  for (Vec3& point : mesh.points)
-  {
-    point = map * point;
-  }
-  const Mat3 turned = map.linear().inverse().transpose();
-  for (Vec3& normal : mesh.normals)
-  {
-    normal = (turned * normal).normalized();
-  }
-  if (map.linear().determinant() < 0.0)
-  {
-    for (Triangle& triangle : mesh.triangles)
-    {
-      std::swap(triangle[1], triangle[2]);
-    }
-  }
-}
-
 constexpr std::size_t kTogether = 32; // points whose elements are looked for at once
 
 /// The piece of the refined element that a point is nearest to.
@@ -159,14 +141,44 @@ private:
   Affine3 inverse_;
 };
 
+/// The same skeleton in its own space.
+NodePtr withoutMap(const SubdivisionSkeleton& leaf)
+{
+  return std::make_shared<SubdivisionSkeleton>(leaf.shape(), Affine3::Identity());
+}
+
+/// The mesh made in the skeleton's own space, mapped and mended.
+TriangleMesh mappedMesh(const SubdivisionSkeleton& leaf, double edgeLength, std::string& warning,
+  const Progress& progress)
+{
+  const NodePtr own = withoutMap(leaf);
+  TriangleMesh mesh = subdivisionSkeletonMesh(static_cast<const SubdivisionSkeleton&>(*own),
+    edgeLength / middleStretch(*leaf.map()), warning, ProgressPart(progress, 0.0, 0.8));
+  applyMap(*leaf.map(), mesh);
+  mesh.sourceLeaf.clear(); // pieces are to have no borders here
+  RemeshOptions options;
+  options.edgeLength = edgeLength;
+  remeshStretched(
+    mesh, options,
+    [&](std::vector<Vec3>& points, std::vector<Vec3>& normals)
+    { projectOntoSurface(leaf, 0.5 * edgeLength, points, normals, progress); },
+    ProgressPart(progress, 0.8, 1.0));
+  mesh.sourceLeaf = skeletonPieceNumbers(leaf, mesh);
+  return mesh;
+}
+
 } // namespace
 
 TriangleMesh subdivisionSkeletonMesh(const SubdivisionSkeleton& leaf, double edgeLength,
   std::string& warning, const Progress& progress)
 {
-  if (leaf.isNegative() || leaf.map())
+  if (leaf.isNegative())
   {
     return latticeMesh(leaf, edgeLength, progress);
+  }
+  if (leaf.map())
+  {
+    return mappedMesh(leaf, edgeLength, warning, progress);
   }
   SkeletonMeshOptions options;
   options.edgeLength = edgeLength;
@@ -196,7 +208,7 @@ TriangleMesh subdivisionSkeletonPreview(const SubdivisionSkeleton& leaf, const P
   }
   if (const std::optional<Affine3> map = leaf.map())
   {
-    const NodePtr own = makeSubdivisionSkeleton(leaf.coarse(), leaf.options());
+    const NodePtr own = withoutMap(leaf);
     TriangleMesh mesh =
       subdivisionSkeletonPreview(static_cast<const SubdivisionSkeleton&>(*own), progress);
     applyMap(*map, mesh);

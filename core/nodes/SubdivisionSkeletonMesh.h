@@ -8,7 +8,8 @@ namespace hybridtree
 
 /// The surface around a skeleton as one closed 2-manifold: the meshes of its pieces where each is
 /// alone, the lattice where they meet (SkeletonMesh.h), all of the lattice where they do not fit
-/// together, for images under non-similarities, and for a negative leaf nothing.
+/// together, and for a negative leaf nothing. Images under non-similarities are made in the
+/// skeleton's own space, mapped and mended.
 ///
 /// Pieces are remembered in the process: after an edit those out of its reach are there already.
 /// \param warning what the user should know; untouched if all went well.

@@ -3,6 +3,9 @@
 
 #include "core/base/Error.h"
 #include "core/mesh/MeshChecks.h"
+#include "core/nodes/LatticeMesh.h"
+#include "tests/support/MeshShape.h"
+#include "tests/support/Random.h"
 #include "tests/support/SkeletonShapes.h"
 
 #include <gtest/gtest.h>
@@ -78,6 +81,40 @@ TEST(SubdivisionSkeletonMesh, PreviewFollowsAnyAffineMap)
     image->field({ &mapped.points[k].x(), &mapped.points[k].y(), &mapped.points[k].z(), 1 }, &at);
     image->field({ &p.x(), &p.y(), &p.z(), 1 }, &outside);
     EXPECT_LT(outside, at);
+  }
+}
+
+// Made in the skeleton's own space, so that pieces keep their triangles: far fewer thin ones than
+// the lattice makes.
+TEST(SubdivisionSkeletonMesh, ImagesUnderAnyMapAreMappedAndMended)
+{
+  Affine3 map = Affine3::Identity();
+  map.linear() << 1.3, 0.4, 0.0, 0.0, -0.7, 0.2, 0.3, 0.0, 1.1; // mirrors
+  for (const SkeletonGraph& graph : { test::bretzel(), test::figure7() })
+  {
+    constexpr double kLength = 0.12;
+    const auto leaf = leafOf(graph);
+    const auto image = leafOf(graph, {}, map);
+    const MeshPtr mesh = image->mesh(kLength);
+    EXPECT_TRUE(isClosedManifold(*mesh));
+    EXPECT_TRUE(image->warnings().empty());
+    EXPECT_NEAR(signedVolume(*mesh),
+      std::abs(map.linear().determinant()) * signedVolume(*leaf->mesh(kLength)),
+      0.01 * signedVolume(*mesh));
+    EXPECT_EQ(std::set<std::int32_t>(mesh->sourceLeaf.begin(), mesh->sourceLeaf.end()).size(),
+      static_cast<std::size_t>(leaf->leafCount()));
+    const test::PointList points(mesh->points);
+    std::vector<double> value(points.size());
+    image->field(points, value.data());
+    int off = 0;
+    for (const double f : value)
+    {
+      off += std::abs(f - kThreshold) > 1e-4;
+    }
+    EXPECT_LE(off, 0.001 * double(points.size()));
+    const test::MeshShape shape = test::shapeOf(*mesh);
+    EXPECT_LE(shape.longest, 4.0 / 3.0 * kLength * (1.0 + 1e-9));
+    EXPECT_LE(shape.needles, 0.3 * test::shapeOf(latticeMesh(*image, kLength)).needles);
   }
 }
 

@@ -98,6 +98,38 @@ TEST(Revolution, MeshIsClosedExactAndFine)
   }
 }
 
+// The nearest point is in the half-plane through p, where the profile is a curve.
+TEST(Revolution, DistanceIsThatToTheProfile)
+{
+  test::Random random(48);
+  for (int round = 0; round < 40; ++round)
+  {
+    std::vector<Vec3> profile;
+    const int count = random.integer(2, 6);
+    for (int k = 0; k < count; ++k)
+    {
+      profile.emplace_back(random.uniform(0.0, 1.0), 0.4 * k, 0.0);
+    }
+    const RevolutionSkeleton skeleton =
+      make(profile, static_cast<SplineKind>(round % 3), false, random.chance(0.5));
+    const RevolutionShape& shape = skeleton.shape();
+    const std::vector<CubicSpan> spans = drawnProfile(shape);
+    const Box3 bounds = skeleton.bounds();
+    const PointList points = randomPoints(
+      random, Box3(Vec3(bounds.min().array() - 1.0), Vec3(bounds.max().array() + 1.0)), 50);
+    std::vector<double> distance(points.size());
+    skeleton.signedDistance(points, distance.data());
+    for (std::size_t k = 0; k < points.size(); ++k)
+    {
+      const Vec3 p = points[k] - shape.origin;
+      const double height = shape.axis.dot(p);
+      const double expected =
+        test::distanceToSpans(spans, Vec3((p - height * shape.axis).norm(), height, 0.0));
+      EXPECT_NEAR(std::abs(distance[k]), expected, 1e-9 * expected + 1e-13) << round;
+    }
+  }
+}
+
 TEST(Revolution, VolumeConvergesToTheSolid)
 {
   for (const Case& item : cases())

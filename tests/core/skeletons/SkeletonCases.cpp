@@ -5,6 +5,8 @@
 #include "tests/core/skeletons/PlateCases.h"
 #include "tests/core/skeletons/RoundCases.h"
 
+#include <limits>
+
 namespace hybridtree::test
 {
 namespace
@@ -173,6 +175,38 @@ SkeletonCase revolutionCase(Random& random, const SplineCurve& profile, bool sol
 }
 
 } // namespace
+
+double distanceToSpans(const std::vector<CubicSpan>& spans, const Vec3& p)
+{
+  constexpr int kSamples = 500;
+  double least = std::numeric_limits<double>::infinity();
+  for (const CubicSpan& span : spans)
+  {
+    const auto at = [&](double t)
+    {
+      const ThickPoint c = span.at(t);
+      return (p - c.at).norm() - c.radius;
+    };
+    for (int k = 0; k <= kSamples; ++k)
+    {
+      const double t = double(k) / kSamples;
+      double low = std::max(0.0, t - 1.0 / kSamples);
+      double high = std::min(1.0, t + 1.0 / kSamples);
+      if (at(t) > at(low) || at(t) > at(high))
+      {
+        continue;
+      }
+      while (high - low > 1e-12)
+      {
+        const double third = (high - low) / 3.0;
+        (at(low + third) < at(high - third) ? high : low) +=
+          at(low + third) < at(high - third) ? -third : third;
+      }
+      least = std::min(least, at(0.5 * (low + high)));
+    }
+  }
+  return least;
+}
 
 std::vector<Vec3> randomWalk(Random& random, int count)
 {

@@ -39,6 +39,10 @@ struct SkeletonCase
 /// Random skeletons of every kind, then degenerate ones.
 std::vector<SkeletonCase> skeletonCases();
 
+/// Least |p - c| - s over the points c of curves of radius s: by samples, each local minimum of
+/// which is refined.
+double distanceToSpans(const std::vector<CubicSpan>& spans, const Vec3& p);
+
 /// Points through which the curves of the tests go: a walk of about unit steps.
 std::vector<Vec3> randomWalk(Random& random, int count);
 

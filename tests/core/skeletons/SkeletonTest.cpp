@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace hybridtree
@@ -61,6 +63,43 @@ TEST(Skeleton, DistanceIsThatToTheNearestSample)
       EXPECT_EQ(inside, signedDistance[k] < 0.0) << item.name;
       EXPECT_LE(std::abs(signedDistance[k]), toSamples + 1e-12) << item.name;
       EXPECT_GE(std::abs(signedDistance[k]), toSamples - item.cover - 1e-12) << item.name;
+    }
+  }
+}
+
+// Those whose distance fits into a line.
+TEST(Skeleton, PlainDistancesAreExact)
+{
+  Random random(12);
+  for (int round = 0; round < 20; ++round)
+  {
+    const Vec3 a = random.direction();
+    const Vec3 b = a + random.uniform(0.0, 2.0) * random.direction();
+    const Vec3 normal = random.direction();
+    const double radius = random.uniform(0.0, 2.0);
+    const Vec3 lengths(random.unit(), random.unit(), random.unit());
+    const Mat3 axes = random.rotation();
+    const PointSkeleton point(a);
+    const SegmentSkeleton segment(a, b);
+    const CircleSkeleton circle(a, normal, radius);
+    const BoxSkeleton box(a, lengths, axes);
+    const PointList points =
+      randomPoints(random, Box3(Vec3::Constant(-3.0), Vec3::Constant(3.0)), 60);
+    for (std::size_t k = 0; k < points.size(); ++k)
+    {
+      const Vec3 p = points[k] - a;
+      const double along = std::clamp(p.dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
+      const double height = normal.dot(p);
+      const Vec3 beyond = ((axes.transpose() * p).cwiseAbs() - 0.5 * lengths).cwiseMax(0.0);
+      const auto check = [&](const Skeleton& skeleton, double expected)
+      {
+        EXPECT_NEAR(distanceAt(skeleton, points[k]), expected, 1e-9 * expected + 1e-14)
+          << skeleton.kind();
+      };
+      check(point, p.norm());
+      check(segment, (p - along * (b - a)).norm());
+      check(circle, std::hypot((p - height * normal).norm() - radius, height));
+      check(box, beyond.norm());
     }
   }
 }

@@ -31,39 +31,6 @@ std::vector<CubicSpan> spansOf(const SplineCurve& curve)
   return spans;
 }
 
-// Least |p - c| - s by samples, each local minimum of them refined by ternary search.
-double bruteForce(const std::vector<CubicSpan>& spans, const Vec3& p)
-{
-  constexpr int kSamples = 500;
-  double least = std::numeric_limits<double>::infinity();
-  for (const CubicSpan& span : spans)
-  {
-    const auto at = [&](double t)
-    {
-      const ThickPoint c = span.at(t);
-      return (p - c.at).norm() - c.radius;
-    };
-    for (int k = 0; k <= kSamples; ++k)
-    {
-      const double t = double(k) / kSamples;
-      double low = std::max(0.0, t - 1.0 / kSamples);
-      double high = std::min(1.0, t + 1.0 / kSamples);
-      if (at(t) > at(low) || at(t) > at(high))
-      {
-        continue;
-      }
-      while (high - low > 1e-12)
-      {
-        const double third = (high - low) / 3.0;
-        (at(low + third) < at(high - third) ? high : low) +=
-          at(low + third) < at(high - third) ? -third : third;
-      }
-      least = std::min(least, at(0.5 * (low + high)));
-    }
-  }
-  return least;
-}
-
 std::vector<SplineCurve> hardCurves()
 {
   Random random(41);
@@ -113,7 +80,7 @@ TEST(Spline, DistanceIsThatOfBruteForce)
     spline->distance(points, distance.data());
     for (std::size_t k = 0; k < points.size(); ++k)
     {
-      const double expected = bruteForce(spans, points[k]);
+      const double expected = test::distanceToSpans(spans, points[k]);
       EXPECT_NEAR(distance[k], expected, 1e-9 * expected + 1e-13)
         << points[k].transpose() << " kind " << int(curve.kind);
     }
@@ -143,7 +110,7 @@ TEST(Spline, ThickDistanceIsThatToTheNearestBall)
     spline->distanceAndGradient(points, distance.data(), gradient);
     for (std::size_t k = 0; k < points.size(); ++k)
     {
-      const double expected = bruteForce(spans, points[k]);
+      const double expected = test::distanceToSpans(spans, points[k]);
       EXPECT_EQ(distance[k], std::max(0.0, signedDistance[k]));
       EXPECT_NEAR(distance[k], std::max(0.0, expected), 1e-9);
       EXPECT_EQ(signedDistance[k] < 0.0, expected < 0.0);
@@ -152,7 +119,7 @@ TEST(Spline, ThickDistanceIsThatToTheNearestBall)
       {
         EXPECT_NEAR(gradient[k].norm(), 1.0, 1e-12);
         const Vec3 nearer = points[k] - 1e-3 * gradient[k];
-        EXPECT_NEAR(bruteForce(spans, nearer), distance[k] - 1e-3, 1e-9);
+        EXPECT_NEAR(test::distanceToSpans(spans, nearer), distance[k] - 1e-3, 1e-9);
       }
     }
   }
