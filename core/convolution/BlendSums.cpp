@@ -5,7 +5,6 @@
 #include "core/convolution/MixBlends.h"
 
 #include <algorithm>
-#include <array>
 #include <vector>
 
 namespace hybridtree
@@ -51,21 +50,20 @@ public:
       {
         field_.addField(elements, points_, this->own(unit));
       }
-      double most = 0.0;
       const double* own = this->own(unit);
       for (std::size_t k = 0; k < points_.size; ++k)
       {
         value[k] += own[k];
-        most = std::max(most, own[k]);
       }
-      isReached_[unit] = static_cast<char>(most > 0.0);
+      isReached_[unit] = static_cast<char>(
+        std::any_of(own, own + points_.size, [](double field) { return field > 0.0; }));
     }
   }
 
-  /// Sets isOpen, `points` many, where a share may be below 1.
-  void findOpen(char* isOpen)
+  /// Sets isOpen, `points` many, above 0 where a share may be below 1.
+  void findOpen(double* isOpen)
   {
-    std::fill_n(isOpen, points_.size, char(0));
+    std::fill_n(isOpen, points_.size, 0.0);
     const std::size_t count = selection_.units.size();
     std::vector<char> mayBeFar(count, 0);
     for (const BlendSelection::Pair& pair : selection_.apart)
@@ -97,7 +95,7 @@ private:
   }
 
   // D = sum of f_c d / sum of f_c > begin, with distances that are at least d.
-  void findFar(std::size_t unit, char* isOpen)
+  void findFar(std::size_t unit, double* isOpen)
   {
     ScratchArray excess(points_.size);
     const double* own = this->own(unit);
@@ -119,20 +117,20 @@ private:
     }
     for (std::size_t k = 0; k < points_.size; ++k)
     {
-      isOpen[k] |= static_cast<char>(own[k] > 0.0 && excess[k] > 0.0);
+      isOpen[k] = std::max(isOpen[k], std::min(own[k], excess[k]));
     }
   }
 
   // Two groups that are no neighbours are in one sum only as neighbours of a third. All groups are
   // neighbours of those of the rest, or never have fields where these do.
-  void findUnjoined(const BlendSelection::Pair& pair, char* isOpen)
+  void findUnjoined(const BlendSelection::Pair& pair, double* isOpen)
   {
     const double* a = this->own(pair.a);
     const double* b = this->own(pair.b);
     const double* rest = selection_.hasRest ? this->own(0) : nullptr;
     for (std::size_t k = 0; k < points_.size; ++k)
     {
-      isOpen[k] |= static_cast<char>(a[k] > 0.0 && b[k] > 0.0 && !(rest && rest[k] > 0.0));
+      isOpen[k] = std::max(isOpen[k], rest && rest[k] > 0.0 ? 0.0 : std::min(a[k], b[k]));
     }
   }
 
@@ -182,7 +180,7 @@ void sumBlends(const BlendGroups& groups, const BlendSelection& selection, Point
     mixBlends(groups, points, value, gradient);
     return;
   }
-  std::array<char, kPart> isOpen;
+  ScratchArray isOpen(std::min(kPart, points.size));
   std::vector<std::size_t> open;
   for (std::size_t begin = 0; begin < points.size; begin += kPart)
   {
@@ -193,7 +191,7 @@ void sumBlends(const BlendGroups& groups, const BlendSelection& selection, Point
     sums.findOpen(isOpen.data());
     for (std::size_t k = 0; k < part.size; ++k)
     {
-      if (isOpen[k])
+      if (isOpen[k] > 0.0)
       {
         open.push_back(begin + k);
       }

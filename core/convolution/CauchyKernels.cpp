@@ -130,11 +130,8 @@ private:
 
 const ConvolutionKernels* cauchyKernels()
 {
-  using Segments = ElementSums<SegmentElement, CauchySegmentIntegral>;
-  using Triangles = ElementSums<TriangleElement, CauchyTriangleIntegral>;
-  static const ConvolutionKernels kernels = { &Segments::add, &Segments::addWithGradient,
-    &Triangles::add, &Triangles::addWithGradient };
-  return &kernels;
+  return kernelsOf<ElementSums<SegmentElement, CauchySegmentIntegral>,
+    ElementSums<TriangleElement, CauchyTriangleIntegral>>();
 }
 
 } // namespace HWY_NAMESPACE

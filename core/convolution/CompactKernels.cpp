@@ -303,11 +303,8 @@ struct CompactSums
 
 const ConvolutionKernels* compactKernels()
 {
-  using Segments = CompactSums<SegmentElement, CompactSegmentIntegral>;
-  using Triangles = CompactSums<TriangleElement, CompactTriangleIntegral>;
-  static const ConvolutionKernels kernels = { &Segments::add, &Segments::addWithGradient,
-    &Triangles::add, &Triangles::addWithGradient };
-  return &kernels;
+  return kernelsOf<CompactSums<SegmentElement, CompactSegmentIntegral>,
+    CompactSums<TriangleElement, CompactTriangleIntegral>>();
 }
 
 } // namespace HWY_NAMESPACE

@@ -341,6 +341,14 @@ struct ElementSums
   }
 };
 
+template <class Segments, class Triangles>
+const ConvolutionKernels* kernelsOf()
+{
+  static const ConvolutionKernels kernels = { &Segments::add, &Segments::addWithGradient,
+    &Triangles::add, &Triangles::addWithGradient };
+  return &kernels;
+}
+
 } // namespace HWY_NAMESPACE
 } // namespace hybridtree
 HWY_AFTER_NAMESPACE();

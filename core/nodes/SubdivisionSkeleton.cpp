@@ -193,9 +193,10 @@ Interval SubdivisionSkeleton::range(const Box3& box) const
 
 FieldSourcePtr SubdivisionSkeleton::restrictedTo(const Box3& box) const
 {
-  BlendSelection selection;
+  // Copied where it is kept: lists that grow anew would be allocated several times.
+  static thread_local BlendSelection selection;
   this->convolution().select(this->toOwnSpace(box), selection);
-  return selection.empty() ? nullptr : std::make_shared<Restriction>(*this, std::move(selection));
+  return selection.empty() ? nullptr : std::make_shared<Restriction>(*this, selection);
 }
 
 void SubdivisionSkeleton::membership(PointBatch points, std::int8_t* side) const
