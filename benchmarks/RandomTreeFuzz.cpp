@@ -6,7 +6,7 @@
 //
 //   RandomTreeFuzz [-n trees, default 5000] [-f first seed, default 0]
 //     [-c edge lengths along the largest side, default 20] [-v: also tell what a shorter edge
-//     length has mended, and what is at creases]
+//     length has mended, and where parts are thin]
 //
 // Returns 1 if anything is wrong in the end.
 #include "core/base/Parallel.h"
@@ -83,8 +83,8 @@ public:
 
   void printLine() const
   {
-    std::printf("%d trees, %d bad, %d disagree at a crease\n", trees_, bad_,
-      atLast_[std::size_t(Fault::CreaseApart)]);
+    std::printf("%d trees, %d bad, %d disagree at thin parts\n", trees_, bad_,
+      atLast_[std::size_t(Fault::ThinApart)]);
     std::fflush(stdout);
   }
 

@@ -14,10 +14,11 @@ namespace hybridtree
 namespace
 {
 
-constexpr int kRounds = 5;
+constexpr int kRounds = 8;
 constexpr double kNearCorner = 0.05; // cells, that a new point keeps off the old ones
 constexpr double kWorthFlip = 0.5;   // of the distance to the surface, that is left at most
-constexpr double kLeastTilt = 0.1;   // cosine of a new triangle to the normals of its corners
+constexpr double kLeastTilt =
+  0.1; // sum of the cosines of a new triangle to the normals of its corners
 
 using Index = std::int32_t;
 
@@ -298,21 +299,46 @@ private:
     }
   }
 
-  /// New triangles face as the surface does at their corners, and have some size.
+  /// New triangles have some size, and face as the surface does at their corners, or come nearer to
+  /// that than those before.
   bool looksRight(const Change& change, const NotchPoint& notch) const
   {
-    const auto at = [&](Index v) -> const Vec3& { return v < 0 ? notch.point : mesh_.points[v]; };
-    const auto up = [&](Index v) -> const Vec3& { return v < 0 ? notch.normal : mesh_.normals[v]; };
-    for (const auto& [a, b, c] : change.made)
+    double before = 3.0;
+    for (const std::size_t t : change.replaced)
     {
-      const Vec3 area = (at(b) - at(a)).cross(at(c) - at(a));
-      if (!(area.dot(up(a) + up(b) + up(c)) > kLeastTilt * area.norm()))
-      {
-        return false;
-      }
-      const double nearest = kNearCorner * cell_;
-      if ((at(a) - at(b)).norm() < nearest || (at(b) - at(c)).norm() < nearest ||
-        (at(c) - at(a)).norm() < nearest)
+      before = std::min(before, this->tiltOf(mesh_.triangles[t], notch));
+    }
+    const double least = std::min(kLeastTilt, before);
+    return std::all_of(change.made.begin(), change.made.end(),
+      [&](const Triangle& made)
+      { return this->tiltOf(made, notch) > least && this->hasSize(made, notch); });
+  }
+
+  const Vec3& pointOf(Index v, const NotchPoint& notch) const
+  {
+    return v < 0 ? notch.point : mesh_.points[v];
+  }
+  const Vec3& normalOf(Index v, const NotchPoint& notch) const
+  {
+    return v < 0 ? notch.normal : mesh_.normals[v];
+  }
+
+  /// Sum of the cosines of the angles to the normals at the corners.
+  double tiltOf(const Triangle& corners, const NotchPoint& notch) const
+  {
+    const auto [a, b, c] = corners;
+    const Vec3& at = this->pointOf(a, notch);
+    const Vec3 area = (this->pointOf(b, notch) - at).cross(this->pointOf(c, notch) - at);
+    return area.stableNormalized().dot(
+      this->normalOf(a, notch) + this->normalOf(b, notch) + this->normalOf(c, notch));
+  }
+
+  bool hasSize(const Triangle& corners, const NotchPoint& notch) const
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      const Vec3& from = this->pointOf(corners[k], notch);
+      if ((this->pointOf(corners[(k + 1) % 3], notch) - from).norm() < kNearCorner * cell_)
       {
         return false;
       }

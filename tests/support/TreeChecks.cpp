@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <set>
 #include <string>
 
@@ -25,21 +26,21 @@ std::vector<double> distancesTo(const MeshPtr& mesh, const PointList& points)
   return distance;
 }
 
-struct Farthest
+FarPoints farPoints(const MeshPtr& mesh, const PointList& points)
 {
-  double distance = 0.0;
-  Vec3 point = Vec3::Zero();
-};
-
-Farthest farthestFrom(const MeshPtr& mesh, const PointList& points)
-{
-  if (points.size() == 0)
+  const std::vector<double> distance =
+    mesh->empty() ? std::vector<double>(points.size(), kFar) : distancesTo(mesh, points);
+  std::vector<std::size_t> order(points.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+    [&](std::size_t a, std::size_t b) { return distance[a] > distance[b]; });
+  FarPoints far;
+  for (const std::size_t k : order)
   {
-    return {};
+    far.points.push_back(points[k]);
+    far.distances.push_back(distance[k]);
   }
-  const std::vector<double> distance = distancesTo(mesh, points);
-  const auto worst = std::max_element(distance.begin(), distance.end());
-  return { *worst, points[std::size_t(worst - distance.begin())] };
+  return far;
 }
 
 PointList verticesAndCentres(const TriangleMesh& mesh)
@@ -182,47 +183,72 @@ SolidCheck checkSolid(
   check.excess = box.volume() * mean;
   check.sigma = box.volume() * std::sqrt((double(wrong.size()) / n - mean * mean) / n);
   check.chords = edge / 16.0 * areaOf(*mesh);
-  const Farthest deepest =
-    wrong.size() > 0 && mesh->empty() ? Farthest{ kFar, wrong[0] } : farthestFrom(mesh, wrong);
-  check.depth = deepest.distance;
-  check.deepest = deepest.point;
+  check.wrong = farPoints(mesh, wrong);
   return check;
+}
+
+std::vector<Vec3> FarPoints::beyond(double limit, double near) const
+{
+  std::vector<Vec3> kept;
+  for (std::size_t k = 0; k < points.size() && distances[k] > limit; ++k)
+  {
+    if (std::none_of(kept.begin(), kept.end(),
+          [&](const Vec3& other) { return (other - points[k]).norm() <= near; }))
+    {
+      kept.push_back(points[k]);
+    }
+  }
+  return kept;
 }
 
 Apart hausdorff(const MeshPtr& a, const MeshPtr& b)
 {
-  if (a->empty() || b->empty())
-  {
-    Apart apart;
-    apart.distance = a->empty() && b->empty() ? 0.0 : kFar;
-    return apart;
-  }
-  const Farthest onA = farthestFrom(b, verticesAndCentres(*a));
-  const Farthest onB = farthestFrom(a, verticesAndCentres(*b));
-  return { std::max(onA.distance, onB.distance), onA.point, onB.point };
+  return { farPoints(b, verticesAndCentres(*a)), farPoints(a, verticesAndCentres(*b)) };
 }
 
-bool isAtCrease(const Node& tree, const Vec3& point, double reach)
+bool isThin(const Node& tree, const Vec3& point, double edge)
 {
-  constexpr std::size_t kSamples = 100;
-  Random random(1);
-  PointList points;
-  for (std::size_t k = 0; k < kSamples; ++k)
+  // All in steps of a finer lattice.
+  constexpr int kFine = 6; // of them are an edge
+  constexpr double kRadius = 0.8661 * kFine;
+  constexpr double kRounding = 0.8661;
+  constexpr double kReach = kRadius + 0.75 * kFine + kRounding; // from the point to a ball's centre
+  constexpr int kSpan = int(kReach + kRadius);
+  constexpr int kSide = 2 * kSpan + 1;
+  PointList places;
+  std::vector<Eigen::Vector3i> centres;
+  std::vector<Eigen::Vector3i> ball;
+  for (int k = 0; k < kSide * kSide * kSide; ++k)
   {
-    points.add(point + reach * random.unit() * random.direction());
-  }
-  std::vector<double> value(kSamples);
-  VectorList gradient(kSamples);
-  tree.fieldAndGradient(points, value.data(), gradient);
-  double least = 1.0;
-  for (std::size_t k = 0; k < kSamples; ++k)
-  {
-    for (std::size_t n = 0; n < k; ++n)
+    const Eigen::Vector3i p(
+      k % kSide - kSpan, k / kSide % kSide - kSpan, k / (kSide * kSide) - kSpan);
+    places.add(point + edge / kFine * p.cast<double>());
+    const double distance = p.cast<double>().norm();
+    if (distance <= kReach)
     {
-      least = std::min(least, gradient[k].stableNormalized().dot(gradient[n].stableNormalized()));
+      centres.push_back(p);
+    }
+    if (distance <= kRadius)
+    {
+      ball.push_back(p);
     }
   }
-  return least < std::sqrt(0.5);
+  std::vector<std::int8_t> side(places.size());
+  tree.membership(places, side.data());
+  const auto isInside = [&](const Eigen::Vector3i& p)
+  {
+    const Eigen::Vector3i at = p.array() + kSpan;
+    return side[std::size_t((at.z() * kSide + at.y()) * kSide + at.x())] > 0;
+  };
+  std::array<bool, 2> found{ false, false };
+  for (const Eigen::Vector3i& centre : centres)
+  {
+    const bool inside = isInside(centre);
+    found[inside] = found[inside] ||
+      std::all_of(ball.begin(), ball.end(),
+        [&](const Eigen::Vector3i& p) { return isInside(centre + p) == inside; });
+  }
+  return !found[0] || !found[1];
 }
 
 std::size_t verticesOffSurface(

@@ -3,21 +3,35 @@
 
 #include "core/nodes/Node.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 namespace hybridtree::test
 {
 
+/// Points and how far they are from something, the farthest first.
+struct FarPoints
+{
+  std::vector<Vec3> points;
+  std::vector<double> distances;
+
+  /// 0 and the origin if there is none.
+  double farthest() const { return distances.empty() ? 0.0 : distances.front(); }
+  Vec3 farthestPoint() const { return points.empty() ? Vec3(Vec3::Zero()) : points.front(); }
+  /// Of those that are farther than `limit` so many that each other one is near to one of them.
+  std::vector<Vec3> beyond(double limit, double near) const;
+};
+
 /// How far a mesh is from the solid that it bounds, by random points.
 struct SolidCheck
 {
-  double excess = 0.0;         ///< volume inside of the mesh less volume inside by membership
-  double sigma = 0.0;          ///< standard deviation of that
-  double chords = 0.0;         ///< most that the flatness of triangles may make of it
-  double depth = 0.0;          ///< of the deepest point that is on the wrong side of the mesh
-  Vec3 deepest = Vec3::Zero(); ///< that point
+  double excess = 0.0; ///< volume inside of the mesh less volume inside by membership
+  double sigma = 0.0;  ///< standard deviation of that
+  double chords = 0.0; ///< most that the flatness of triangles may make of it
+  FarPoints wrong;     ///< points that are on the wrong side of the mesh, by their distance from it
 
   bool volumeOff() const { return !(std::abs(excess) <= 3.0 * sigma + chords); }
 };
@@ -27,21 +41,25 @@ struct SolidCheck
 SolidCheck checkSolid(
   const Node& tree, const MeshPtr& mesh, double edge, std::size_t points, std::uint64_t seed);
 
-/// How far two meshes are apart.
+/// How far two meshes are apart: the vertices and centres of triangles of each, from the other.
 struct Apart
 {
-  double distance = 0.0;
-  Vec3 onA = Vec3::Zero(); ///< the point of A that is farthest from B
-  Vec3 onB = Vec3::Zero();
+  FarPoints ofA;
+  FarPoints ofB;
+
+  /// (Hausdorff.) 0 for two empty meshes, infinity where one is.
+  double distance() const { return std::max(ofA.farthest(), ofB.farthest()); }
 };
 
-/// The largest distance of a vertex or a triangle's centre of one mesh from the other, both ways
-/// (Hausdorff). 0 for two empty meshes, infinity where one is.
 Apart hausdorff(const MeshPtr& a, const MeshPtr& b);
 
-/// Whether the gradient turns by more than 45 degrees within `reach` of a point: its surface there
-/// has a crease, or what is too small to tell from one.
-bool isAtCrease(const Node& tree, const Vec3& point, double reach);
+/// Whether the solid of a tree, or what is around it, is too thin beside a point for a lattice of
+/// these edges: no ball as wide as the diagonal of a cell that is on one side comes within three
+/// quarters of an edge of the point. Smaller balls may have no lattice point in them, and a lattice
+/// tells the topology of a solid only if balls of that size fit its surface on both sides
+/// (Stelldinger, Latecki and Siqueira 2007). Wedges are thin along their edge if they are sharper
+/// than about 60 degrees; right angles and the corners of boxes are not.
+bool isThin(const Node& tree, const Vec3& point, double edge);
 
 /// How many vertices of the mesh of a tree are farther than `allowed` from its surface, not
 /// counting those that a blend or a Boolean has taken over from the meshes below it, bit for bit,

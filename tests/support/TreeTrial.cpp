@@ -13,8 +13,8 @@ namespace hybridtree::test
 {
 
 const std::array<const char*, kFaults> kFaultNames = { "failed", "open or non-manifold",
-  "off in volume", "wrong side", "off the surface", "disagreeing", "wrong side at a crease",
-  "disagreeing at a crease" };
+  "off in volume", "wrong side", "off the surface", "disagreeing", "wrong side of thin parts",
+  "disagreeing at thin parts" };
 
 namespace
 {
@@ -29,7 +29,7 @@ constexpr int kHalvings = 3;
 // In edge lengths.
 constexpr double kOnSurface = 1e-3;
 constexpr double kFar = 0.5;
-constexpr double kCreaseReach = 0.1;
+constexpr double kNear = 0.5; // one of the points that are so near to each other stands for all
 
 std::string number(double value)
 {
@@ -81,12 +81,12 @@ public:
   void compare(const Made& a, const Made& b)
   {
     const Apart apart = hausdorff(a.mesh, b.mesh);
-    if (apart.distance > kFar * edge_)
+    if (apart.distance() > kFar * edge_)
     {
-      const bool crease = this->atCrease(*a.tree, apart.onA) || this->atCrease(*a.tree, apart.onB);
-      verdict_.add(crease ? Fault::CreaseApart : Fault::Apart,
-        a.name + " and " + b.name + ": " + number(apart.distance / edge_) + " edge lengths, at " +
-          place(apart.onA) + ", " + place(apart.onB));
+      const bool thin = this->isAllThin(*a.tree, apart.ofA) && this->isAllThin(*a.tree, apart.ofB);
+      verdict_.add(thin ? Fault::ThinApart : Fault::Apart,
+        a.name + " and " + b.name + ": " + number(apart.distance() / edge_) + " edge lengths, at " +
+          place(apart.ofA.farthestPoint()) + ", " + place(apart.ofB.farthestPoint()));
     }
   }
 
@@ -104,18 +104,19 @@ private:
         made.name + ": by " + number(solid.excess) + ", sigma " + number(solid.sigma) +
           ", chords " + number(solid.chords));
     }
-    if (solid.depth > kFar * edge_)
+    if (solid.wrong.farthest() > kFar * edge_)
     {
-      const bool crease = this->atCrease(*made.tree, solid.deepest);
-      verdict_.add(crease ? Fault::CreaseSide : Fault::Side,
-        made.name + ": " + number(solid.depth / edge_) + " edge lengths deep, at " +
-          place(solid.deepest));
+      verdict_.add(this->isAllThin(*made.tree, solid.wrong) ? Fault::ThinSide : Fault::Side,
+        made.name + ": " + number(solid.wrong.farthest() / edge_) + " edge lengths deep, at " +
+          place(solid.wrong.farthestPoint()));
     }
   }
 
-  bool atCrease(const Node& tree, const Vec3& point) const
+  bool isAllThin(const Node& tree, const FarPoints& far) const
   {
-    return isAtCrease(tree, point, kCreaseReach * edge_);
+    const std::vector<Vec3> points = far.beyond(kFar * edge_, kNear * edge_);
+    return std::all_of(
+      points.begin(), points.end(), [&](const Vec3& point) { return isThin(tree, point, edge_); });
   }
 
   double edge_;
@@ -166,7 +167,7 @@ void TreeVerdict::add(Fault fault, const std::string& what)
 
 bool TreeVerdict::bad() const
 {
-  return std::any_of(count.begin(), count.begin() + std::ptrdiff_t(Fault::CreaseSide),
+  return std::any_of(count.begin(), count.begin() + std::ptrdiff_t(Fault::ThinSide),
     [](int faults) { return faults > 0; });
 }
 

@@ -21,9 +21,10 @@ enum class Fault
   OffSurface, ///< a vertex is farther than 1e-3 edge lengths from the surface
   Apart,      ///< the meshes of two methods are farther than half an edge length apart (Hausdorff)
   ///@{
-  /// Side and Apart beside a crease: marching cubes has no vertex on it, meshes that are kept do.
-  CreaseSide,
-  CreaseApart
+  /// Side and Apart, all of it where parts of the solid or of what is around it are too thin for a
+  /// lattice of that edge length (isThin() in TreeChecks.h). Meshes that are kept have them.
+  ThinSide,
+  ThinApart
   ///@}
 };
 constexpr std::size_t kFaults = 8;
@@ -39,7 +40,7 @@ struct TreeVerdict
 
   int of(Fault fault) const { return count[std::size_t(fault)]; }
   void add(Fault fault, const std::string& what);
-  /// Other than beside a crease.
+  /// Other than where it is thin.
   bool bad() const;
   /// As no shorter edge length excuses.
   bool broken() const { return this->of(Fault::Failed) > 0 || this->of(Fault::Open) > 0; }

@@ -107,9 +107,13 @@ void expectFused(const Node& node, const Fused& fused, const MeshPtr& global)
     fused.body->mesh(kEdge)->triangles.size() + fused.segment->mesh(kEdge)->triangles.size();
   EXPECT_GT(keptIn(*mesh, fused), own / 2);
   const Apart apart = hausdorff(mesh, global);
-  EXPECT_TRUE(apart.distance <= 0.5 * kEdge || isAtCrease(node, apart.onA, 0.1 * kEdge) ||
-    isAtCrease(node, apart.onB, 0.1 * kEdge))
-    << apart.distance;
+  for (const FarPoints* far : { &apart.ofA, &apart.ofB })
+  {
+    for (const Vec3& point : far->beyond(0.5 * kEdge, 0.5 * kEdge))
+    {
+      EXPECT_TRUE(isThin(node, point, kEdge)) << point.transpose();
+    }
+  }
 }
 
 TEST(FusedScans, BlendKeepsBothScansButForTheJoint)

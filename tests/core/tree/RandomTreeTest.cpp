@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tests/support/RandomTree.h"
 #include "core/mesh/MeshChecks.h"
+#include "core/nodes/Boolean.h"
+#include "core/nodes/MeshNode.h"
 #include "core/tree/Serialize.h"
+#include "tests/support/TestMeshes.h"
 #include "tests/support/TreeChecks.h"
 #include "tests/support/TreeTrial.h"
 
@@ -140,6 +143,31 @@ TEST(RandomTrees, AllMethodsAgree)
     const TreeVerdict verdict = tryTree(seed, 16.0, 2000).back();
     EXPECT_FALSE(verdict.bad()) << "seed " << seed << "\n" << verdict.text;
   }
+}
+
+// What the fuzz excuses.
+TEST(RandomTrees, PlatesAndSharpWedgesAreThin)
+{
+  constexpr double kEdge = 0.1;
+  const auto brick = [](const Vec3& half)
+  { return makeMeshNode(std::make_shared<const TriangleMesh>(box(-half, half)), 1.0, 0.2, 2); };
+  const NodePtr cube = brick(Vec3(0.5, 0.6, 0.4));
+  EXPECT_FALSE(isThin(*cube, Vec3(0.5, 0.1, 0.0), kEdge));
+  EXPECT_FALSE(isThin(*cube, Vec3(0.5, 0.6, 0.0), kEdge));
+  EXPECT_FALSE(isThin(*cube, Vec3(0.5, 0.6, 0.4), kEdge));
+  EXPECT_TRUE(isThin(*brick(Vec3(0.5, 0.6, 0.8 * kEdge)), Vec3(0.1, 0.2, 0.8 * kEdge), kEdge));
+  EXPECT_FALSE(isThin(*brick(Vec3(0.5, 0.6, kEdge)), Vec3(0.1, 0.2, kEdge), kEdge));
+  // Between y = 0 and that plane turned about the z axis.
+  const auto wedge = [&](double degrees)
+  {
+    const NodePtr cube = brick(Vec3::Constant(0.6));
+    const Eigen::AngleAxisd turn(degrees * -0.0174533, Vec3::UnitZ());
+    return makeBoolean(BooleanOperation::Intersection,
+      cube->affine(Affine3(Eigen::Translation3d(0.6, -0.6, 0.0))),
+      cube->affine(turn * Eigen::Translation3d(0.6, 0.6, 0.0)));
+  };
+  EXPECT_TRUE(isThin(*wedge(50.0), Vec3::Zero(), kEdge));
+  EXPECT_FALSE(isThin(*wedge(80.0), Vec3::Zero(), kEdge));
 }
 
 // Seeds that once failed: vertices beside a crease.
