@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A session of clicks in the real ParaView GUI: draw a skeleton, create, apply, undo, redo, copy and paste, drag, change
-the input, delete, save and reload a state. ParaView's own event player clicks; each step waits for the one before.
+"""A session of clicks in the real ParaView GUI: draw a skeleton, create, apply, undo, redo, copy and paste, drag,
+change the input, delete, save and reload a state. ParaView's own event player clicks; each step waits for the one before.
 """
 import json
 import os
@@ -83,8 +83,8 @@ class Session:
         self.mouse("mouseRelease", x1, y1, LEFT, 0)
 
     def expect(self, check):
-        """Has gui_recorder write the pipeline down; check(pipeline, records before) is for after the session. Returns the
-        number of the record."""
+        """Has gui_recorder write the pipeline down; check(pipeline, records before) is for after the session.
+        Returns the number of the record."""
         self.mouse("mouseMove", 0.001, 0.5)
         self.mouse("mouseMove", 0.02, 0.5)
         self.checks.append(check)
@@ -161,6 +161,22 @@ def draw_skeleton(session):
     session.pick(BROWSER, "/0:0/0:0")
     session.delete()
     session.expect(lambda pipeline, _: kinds(pipeline) == [])
+
+
+def drag_corner(session):
+    session.source("HybridTreeTriangle")
+    session.event(WINDOW + "/cameraToolbar/actionResetCamera", "activate")
+    session.drag(0.5, 0.217, 0.65, 0.117)  # the upper corner of the default triangle
+    session.apply()
+
+    def moved(pipeline, _):
+        triangle = pipeline["HybridTreeTriangle1"]
+        assert triangle["Point1"] == [-0.5, -0.5, 0] and triangle["Point2"] == [0.5, -0.5, 0], triangle
+        assert triangle["Point3"][0] > 0.2 and triangle["Point3"][1] > 0.6, triangle
+        assert triangle["bounds"][3] > 0.7, triangle
+
+    session.expect(moved)
+    session.delete()
 
 
 def create(session):
@@ -271,7 +287,8 @@ def play(session, xvfb_run, home):
 def main():
     with tempfile.TemporaryDirectory() as home:
         session = Session(os.path.join(home, "session.pvsm"))
-        for part in (draw_skeleton, create, undo_creation, undo_property, copy_and_paste, drag_widget, change_input, delete, reload_state):
+        for part in (draw_skeleton, drag_corner, create, undo_creation, undo_property, copy_and_paste, drag_widget,
+                change_input, delete, reload_state):
             part(session)
         output = play(session, sys.argv[1], home)
         for sign in ("ERR|", "WARN|"):
