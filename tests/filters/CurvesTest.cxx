@@ -6,6 +6,7 @@
 #include "vtkCellArray.h"
 #include "vtkDoubleArray.h"
 #include "vtkHybridTreeCurveSkeletons.h"
+#include "vtkHybridTreePolygon.h"
 #include "vtkHybridTreeSpline.h"
 #include "vtkHybridTreeSurfaceOfRevolution.h"
 #include "vtkMassProperties.h"
@@ -309,6 +310,28 @@ TEST(Curves, LowerLevelsOfDetailHaveFewerPointsButNearlyTheSameShape)
   spline->SetLevelOfDetail(0);
   spline->Update();
   EXPECT_NEAR(volumeOf(spline->GetOutput()), exact, 0.05 * exact);
+}
+
+TEST(Curves, PolygonsHaveLevelsOfDetail)
+{
+  vtkNew<vtkHybridTreePolygon> polygon;
+  polygon->SetNumberOfPoints(100);
+  for (int k = 0; k < 100; ++k)
+  {
+    const double t = 2.0 * vtkMath::Pi() * k / 100.0;
+    polygon->SetPoint(k, std::cos(t), std::sin(t), 0.0);
+  }
+  polygon->Update();
+  const double exact = volumeOf(polygon->GetOutput());
+  const auto corners = [&]
+  { return polygon->GetTree()->parameters().getDoubles("points").size() / 3; };
+  EXPECT_EQ(corners(), 100u);
+  polygon->SetLevelOfDetail(0);
+  polygon->Update();
+  EXPECT_LT(corners(), 30u);
+  EXPECT_NEAR(volumeOf(polygon->GetOutput()), exact, 0.1 * exact);
+  polygon->SetLevelOfDetail(-1);
+  expectError(polygon, { "LevelOfDetail", "from 0 to 4" });
 }
 
 } // namespace
