@@ -202,6 +202,13 @@ private:
   {
     const Vec3 normal = search.site->middleNormal();
     Vec3 point = search.site->middle();
+    // Most are too low, which one more question tells.
+    const bool inside = excessAt(field_, point) >= 0.0;
+    const Vec3 least = (inside ? kLeastCurve : -kLeastCurve) * cell_ * normal;
+    if ((excessAt(field_, point + least) >= 0.0) != inside)
+    {
+      return;
+    }
     if (!normal.isZero() && moveToSurface(field_, kRise * cell_, normal, point))
     {
       this->keep(search, point, normal, kLeastCurve * cell_);
