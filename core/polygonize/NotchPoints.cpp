@@ -53,6 +53,7 @@ public:
   void run()
   {
     this->keepFar();
+    this->findFirstPlanes();
     for (Search& search : sites_)
     {
       if (!this->findCrease(search) && search.result->off >= kLeastRise * cell_)
@@ -67,7 +68,7 @@ private:
   {
     const NotchSite* site;
     NotchPoint* result;
-    TouchingPlanes planes;
+    TouchingPlanes planes; ///< of the step at hand
   };
 
   /// Leaves out those that are on the surface, nearly, or as far below it as the normals of the rim
@@ -125,7 +126,10 @@ private:
     double wideAngle = 0.0;
     for (int step = 0; step < kSteps; ++step)
     {
-      search.planes = this->planesAround(*search.site, kWays[step], point);
+      if (step > 0)
+      {
+        search.planes = this->planesAt(this->placesAround(*search.site, kWays[step], point));
+      }
       const double angle = this->areNear(search.planes) ? widestAngle(search.planes) : 0.0;
       wideAngle = step == 0 ? angle : wideAngle;
       if (step <= kJudging && angle < std::max(kLeastAngle, kLeastShare * wideAngle))
@@ -147,14 +151,35 @@ private:
     return this->settle(search, point);
   }
 
-  TouchingPlanes planesAround(const NotchSite& site, double way, const Vec3& point) const
+  std::vector<Vec3> placesAround(const NotchSite& site, double way, const Vec3& point) const
   {
     std::vector<Vec3> places;
     for (int k = 0; k < site.count; k += site.isEdge() ? 2 : 1)
     {
       places.push_back(point + way * (site.rim[k] - point));
     }
-    return this->planesAt(places);
+    return places;
+  }
+
+  /// Those of the first step, by one question for all sites.
+  void findFirstPlanes()
+  {
+    std::vector<Vec3> places;
+    for (const Search& search : sites_)
+    {
+      for (const Vec3& place : this->placesAround(*search.site, kWays[0], search.site->middle()))
+      {
+        places.push_back(place);
+      }
+    }
+    const TouchingPlanes planes = this->planesAt(places);
+    auto next = planes.begin();
+    for (Search& search : sites_)
+    {
+      const int count = search.site->isEdge() ? 2 : 3;
+      search.planes.assign(next, next + count);
+      next += count;
+    }
   }
 
   /// How far along the crease to go to the next place from which no side of the rim is seen the
