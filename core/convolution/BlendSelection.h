@@ -18,6 +18,11 @@ struct BlendSelection
     std::size_t segmentsEnd;
     std::size_t trianglesEnd;
   };
+  struct Group
+  {
+    std::int32_t group;
+    std::size_t unit;
+  };
   /// Units whose shares in each other's sums may be below 1.
   struct Pair
   {
@@ -29,7 +34,8 @@ struct BlendSelection
   /// Not everything adds up. Without units nothing more is known.
   bool isControlled = false;
   std::vector<Unit> units;
-  bool hasRest; ///< unit 0 is not a single group: it is in no pair
+  std::vector<Group> groups; ///< that reach the box, with their units
+  bool hasRest;              ///< unit 0 is not a single group: it is in no pair
   std::vector<Pair> apart;
   /// Row by row of units x units: how far places on the first that reach the second are from it at
   /// most; for the rest, places on any of its groups or the distance from any.

@@ -106,6 +106,10 @@ private:
       }
     }
     selection_.units.assign(work_.groups.size(), { 0, 0 });
+    for (std::size_t k = 0; k < numbers_.size(); ++k)
+    {
+      selection_.groups.push_back({ numbers_.group(k), work_.units[k] });
+    }
   }
 
   void findPairs()
@@ -170,6 +174,7 @@ void selectBlends(const BlendGroups& groups, BlendSelection& selection)
 {
   selection.isControlled = false;
   selection.units.clear();
+  selection.groups.clear();
   selection.apart.clear();
   if (selection.all.empty())
   {

@@ -5,6 +5,7 @@
 #include "core/convolution/MixBlends.h"
 
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 namespace hybridtree
@@ -19,9 +20,10 @@ class UnitSums
 {
 public:
   UnitSums(const BlendGroups& groups, const BlendSelection& selection, PointBatch points)
-    : begin_(BlendShare(groups.control).begin())
+    : share_(groups.control)
     , field_(groups.whole)
     , selection_(selection)
+    , farthest_(selection.farthest)
     , points_(points)
     , own_(selection.units.size() * points.size)
     , isReached_(selection.units.size())
@@ -65,13 +67,13 @@ public:
   {
     std::fill_n(isOpen, points_.size, 0.0);
     const std::size_t count = selection_.units.size();
-    std::vector<char> mayBeFar(count, 0);
+    mayBeFar_.assign(count, 0);
     for (const BlendSelection::Pair& pair : selection_.apart)
     {
       if (isReached_[pair.a] && isReached_[pair.b])
       {
-        mayBeFar[pair.a] |= static_cast<char>(this->farthest(pair.b, pair.a) > begin_);
-        mayBeFar[pair.b] |= static_cast<char>(this->farthest(pair.a, pair.b) > begin_);
+        mayBeFar_[pair.a] |= static_cast<char>(this->farthest(pair.b, pair.a) > share_.begin());
+        mayBeFar_[pair.b] |= static_cast<char>(this->farthest(pair.a, pair.b) > share_.begin());
         if (!pair.areNeighbours)
         {
           this->findUnjoined(pair, isOpen);
@@ -80,9 +82,43 @@ public:
     }
     for (std::size_t unit = 0; unit < count; ++unit)
     {
-      if (mayBeFar[unit])
+      if (mayBeFar_[unit])
       {
         this->findFar(unit, isOpen);
+      }
+    }
+  }
+
+  /// From now on only pieces near some of the points count: findOpen() holds only for these.
+  void narrow(const PiecesNear& pieces)
+  {
+    constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+    const std::size_t units = selection_.units.size();
+    std::vector<std::size_t> unitOf(pieces.groupCount(), kNone);
+    for (const BlendSelection::Group& group : selection_.groups)
+    {
+      if (pieces.find(group.group) >= 0)
+      {
+        unitOf[static_cast<std::size_t>(pieces.find(group.group))] = group.unit;
+      }
+    }
+    const std::vector<double> before = farthest_;
+    std::fill(farthest_.begin(), farthest_.end(), 0.0);
+    for (std::size_t number = 0; number < unitOf.size(); ++number)
+    {
+      const std::size_t unit = unitOf[number];
+      if (unit == kNone || !isReached_[unit])
+      {
+        continue;
+      }
+      for (std::size_t other = 0; other < unitOf.size(); ++other)
+      {
+        if (unitOf[other] != kNone && mayBeFar_[unitOf[other]])
+        {
+          const std::size_t pair = unit * units + unitOf[other];
+          const double distance = this->farthest(pieces, number, pieces.group(other));
+          farthest_[pair] = std::max(farthest_[pair], std::min(before[pair], distance));
+        }
       }
     }
   }
@@ -91,7 +127,18 @@ private:
   double* own(std::size_t unit) { return own_.data() + unit * points_.size; }
   double farthest(std::size_t a, std::size_t b) const
   {
-    return selection_.farthest[a * selection_.units.size() + b];
+    return farthest_[a * selection_.units.size() + b];
+  }
+
+  // Of the pieces of a group.
+  double farthest(const PiecesNear& pieces, std::size_t number, std::int32_t from) const
+  {
+    double distance = 0.0;
+    for (std::size_t k = pieces.begin(number); k < pieces.end(number); ++k)
+    {
+      distance = std::max(distance, pieces[k].place->from(from, share_.farthest()));
+    }
+    return distance;
   }
 
   // D = sum of f_c d / sum of f_c > begin, with distances that are at least d.
@@ -101,14 +148,14 @@ private:
     const double* own = this->own(unit);
     for (std::size_t k = 0; k < points_.size; ++k)
     {
-      excess[k] = -begin_ * own[k];
+      excess[k] = -share_.begin() * own[k];
     }
     for (std::size_t other = 0; other < selection_.units.size(); ++other)
     {
       if (other != unit && isReached_[other])
       {
         const double* field = this->own(other);
-        const double weight = this->farthest(other, unit) - begin_;
+        const double weight = this->farthest(other, unit) - share_.begin();
         for (std::size_t k = 0; k < points_.size; ++k)
         {
           excess[k] += weight * field[k];
@@ -134,16 +181,18 @@ private:
     }
   }
 
-  double begin_;
+  BlendShare share_;
   const ConvolutionField& field_;
   const BlendSelection& selection_;
+  std::vector<double> farthest_; // selection.farthest or less
   PointBatch points_;
   ScratchArray own_;            // per unit
   std::vector<char> isReached_; // per unit: any of the points
+  std::vector<char> mayBeFar_;  // per unit: from another that reaches any
 };
 
 // As mixBlends(), of some points.
-void mixSome(const BlendGroups& groups, const std::vector<std::size_t>& some, PointBatch points,
+void mixSome(const PiecesNear& pieces, const std::vector<std::size_t>& some, PointBatch points,
   double* value, const VectorBatch* gradient)
 {
   ScratchVectors at(some.size());
@@ -159,7 +208,7 @@ void mixSome(const BlendGroups& groups, const std::vector<std::size_t>& some, Po
       slope.set(k, (*gradient)[some[k]]);
     }
   }
-  mixBlends(groups, at.points(), mixed.data(), gradient ? &slope : nullptr);
+  mixBlends(pieces, at.points(), mixed.data(), gradient ? &slope : nullptr);
   for (std::size_t k = 0; k < some.size(); ++k)
   {
     value[some[k]] = mixed[k];
@@ -167,6 +216,40 @@ void mixSome(const BlendGroups& groups, const std::vector<std::size_t>& some, Po
     {
       gradient->set(some[k], slope[k]);
     }
+  }
+}
+
+void sumPart(const BlendGroups& groups, const BlendSelection& selection, PointBatch points,
+  double* value, const VectorBatch* gradient)
+{
+  UnitSums sums(groups, selection, points);
+  ScratchArray isOpen(points.size);
+  sums.addUp(value, gradient);
+  sums.findOpen(isOpen.data());
+  std::vector<std::size_t> open;
+  Box3 box;
+  for (std::size_t k = 0; k < points.size; ++k)
+  {
+    if (isOpen[k] > 0.0)
+    {
+      open.push_back(k);
+      box.extend(points[k]);
+    }
+  }
+  if (open.empty())
+  {
+    return;
+  }
+  // Once more with what is near these points.
+  const PiecesNear pieces(groups, box);
+  sums.narrow(pieces);
+  sums.findOpen(isOpen.data());
+  open.erase(
+    std::remove_if(open.begin(), open.end(), [&](std::size_t k) { return !(isOpen[k] > 0.0); }),
+    open.end());
+  if (!open.empty())
+  {
+    mixSome(pieces, open, points, value, gradient);
   }
 }
 
@@ -180,26 +263,11 @@ void sumBlends(const BlendGroups& groups, const BlendSelection& selection, Point
     mixBlends(groups, points, value, gradient);
     return;
   }
-  ScratchArray isOpen(std::min(kPart, points.size));
-  std::vector<std::size_t> open;
   for (std::size_t begin = 0; begin < points.size; begin += kPart)
   {
     const PointBatch part = points.slice(begin, std::min(kPart, points.size - begin));
-    const VectorBatch slope = gradient ? gradient->slice(begin) : VectorBatch{};
-    UnitSums sums(groups, selection, part);
-    sums.addUp(value + begin, gradient ? &slope : nullptr);
-    sums.findOpen(isOpen.data());
-    for (std::size_t k = 0; k < part.size; ++k)
-    {
-      if (isOpen[k] > 0.0)
-      {
-        open.push_back(begin + k);
-      }
-    }
-  }
-  if (!open.empty())
-  {
-    mixSome(groups, open, points, value, gradient);
+    const VectorBatch slopes = gradient ? gradient->slice(begin) : VectorBatch{};
+    sumPart(groups, selection, part, value + begin, gradient ? &slopes : nullptr);
   }
 }
 

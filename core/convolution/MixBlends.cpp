@@ -168,34 +168,44 @@ private:
   std::vector<double> sums_;   // per group: of its sum
 };
 
+// mix(points, value, gradient) for parts of them.
+template <typename Mix>
+void forParts(
+  std::size_t step, PointBatch points, double* value, const VectorBatch* gradient, const Mix& mix)
+{
+  for (std::size_t begin = 0; begin < points.size; begin += step)
+  {
+    const std::size_t count = std::min(step, points.size - begin);
+    const VectorBatch slopes = gradient ? gradient->slice(begin) : VectorBatch{};
+    mix(points.slice(begin, count), value + begin, gradient ? &slopes : nullptr);
+  }
+}
+
 } // namespace
 
 void mixBlends(
   const BlendGroups& groups, PointBatch points, double* value, const VectorBatch* gradient)
 {
-  const auto forParts = [&](std::size_t step, const auto& mix)
+  if (groups.farGroups.empty())
   {
-    for (std::size_t begin = 0; begin < points.size; begin += step)
-    {
-      const std::size_t count = std::min(step, points.size - begin);
-      const VectorBatch slopes = gradient ? gradient->slice(begin) : VectorBatch{};
-      mix(points.slice(begin, count), value + begin, gradient ? &slopes : nullptr);
-    }
-  };
-  if (!groups.farGroups.empty())
-  {
-    forParts(BlendMixture::kMostPoints,
-      [&](PointBatch part, double* values, const VectorBatch* slopes)
-      { FarMixer(groups, part).mix(values, slopes); });
+    mixBlends(PiecesNear(groups, boxOf(points)), points, value, gradient);
     return;
   }
-  const PiecesNear pieces(groups, boxOf(points));
+  forParts(BlendMixture::kMostPoints, points, value, gradient,
+    [&](PointBatch part, double* values, const VectorBatch* slopes)
+    { FarMixer(groups, part).mix(values, slopes); });
+}
+
+void mixBlends(
+  const PiecesNear& pieces, PointBatch points, double* value, const VectorBatch* gradient)
+{
   if (pieces.size() == 0)
   {
     clear(points.size, value, gradient);
     return;
   }
   forParts(std::clamp<std::size_t>(kMostNumbers / pieces.size(), 8, BlendMixture::kMostPoints),
+    points, value, gradient,
     [&](PointBatch part, double* values, const VectorBatch* slopes)
     { mixNear(pieces, part, values, slopes); });
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "core/convolution/BlendGroups.h"
+#include "core/convolution/PieceFields.h"
 
 namespace hybridtree
 {
@@ -16,5 +16,9 @@ namespace hybridtree
 /// before, and keep it where that is the field.
 void mixBlends(
   const BlendGroups& groups, PointBatch points, double* value, const VectorBatch* gradient);
+
+/// The same from the pieces that reach the points. \pre not the Cauchy kernel.
+void mixBlends(
+  const PiecesNear& pieces, PointBatch points, double* value, const VectorBatch* gradient);
 
 } // namespace hybridtree
