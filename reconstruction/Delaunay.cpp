@@ -2,7 +2,6 @@
 #include "reconstruction/Delaunay.h"
 
 #include "reconstruction/DelaunayPredicates.h"
-#include "reconstruction/SpatialOrder.h"
 
 #include "core/base/Error.h"
 #include "core/geometry/Predicates.h"
@@ -17,21 +16,8 @@ namespace hybridtree
 namespace
 {
 
-// How many insertions between two looks at whether to go on.
-constexpr std::size_t kBreath = 256;
-// Half-facets are 32-bit numbers.
-constexpr std::size_t kMostCells = std::size_t(1) << 29;
-// Tetrahedra about a point of a surface, with the infinite ones, and some to spare.
-constexpr std::size_t kCellsPerPoint = 7;
 // A cavity with more vertices on its border is joined by sorting instead of a table.
 constexpr std::size_t kMostLocals = 64;
-
-enum Mark : std::uint8_t
-{
-  Unmarked,
-  InCavity,
-  Outside
-};
 
 } // namespace
 
@@ -48,132 +34,13 @@ std::array<std::int32_t, 3> Delaunay::facet(std::int32_t halfFacet) const
   return { v[corner[0]], v[corner[1]], v[corner[2]] };
 }
 
-void Delaunay::insert(const std::vector<Vec3>& points, const Progress& progress)
-{
-  std::size_t first = points_.size();
-  points_.insert(points_.end(), points.begin(), points.end());
-  cellOf_.resize(points_.size(), -1);
-  local_.resize(points_.size() + 1, 0);
-  if (!this->spansVolume())
-  {
-    if (!this->insertFirst())
-    {
-      return;
-    }
-    first = 0; // those that had to wait, too
-  }
-  cells_.reserve(kCellsPerPoint * points_.size());
-  std::int32_t near = -1;
-  std::size_t step = 0;
-  for (const std::int32_t k : insertionOrder(points_.size() - first))
-  {
-    if (++step % kBreath == 0)
-    {
-      progress.check();
-      progress.report(double(step) / double(points_.size() - first));
-    }
-    this->insertPoint(static_cast<std::int32_t>(first) + k, near);
-  }
-}
-
-void Delaunay::insertPoint(std::int32_t point, std::int32_t& near)
-{
-  if (cellOf_[point] >= 0) // one of the first four
-  {
-    return;
-  }
-  const Place place = this->locate(points_[point], near);
-  if (place.vertex < 0)
-  {
-    this->findCavity(points_[point], place, cavity_);
-    this->fill(point, cavity_);
-  }
-  near = place.vertex < 0 ? point : place.vertex;
-}
-
-// Four points that span a volume, if there are, else -1 from the first on that does not add a
-// dimension.
-std::array<std::int32_t, 4> Delaunay::independent() const
-{
-  std::array<std::int32_t, 4> chosen{ -1, -1, -1, -1 };
-  std::size_t found = 0;
-  const auto at = [&](std::size_t k) -> const Vec3& { return points_[chosen[k]]; };
-  for (std::size_t k = 0; found < 4 && k < points_.size(); ++k)
-  {
-    const Vec3& p = points_[k];
-    const bool adds = found == 0 || (found == 1 && p != at(0)) ||
-      (found == 2 && !collinear(at(0), at(1), p)) ||
-      (found == 3 && sideOfPlane(at(0), at(1), at(2), p) != 0);
-    if (adds)
-    {
-      chosen[found++] = static_cast<std::int32_t>(k);
-    }
-  }
-  return chosen;
-}
-
-bool Delaunay::insertFirst()
-{
-  std::array<std::int32_t, 4> v = this->independent();
-  if (v[3] < 0)
-  {
-    return false;
-  }
-  if (sideOfPlane(points_[v[0]], points_[v[1]], points_[v[2]], points_[v[3]]) < 0)
-  {
-    std::swap(v[2], v[3]);
-  }
-  cells_.push_back({ v, { -1, -1, -1, -1 } });
-  cavity_.cells.clear();
-  bases_.clear();
-  for (std::int32_t facet = 0; facet < 4; ++facet)
-  {
-    cellOf_[v[facet]] = 0;
-    const auto corners = this->facet(facet);
-    bases_.push_back({ { corners[0], corners[2], corners[1] }, facet, {} });
-    cavity_.cells.push_back(facet + 1);
-  }
-  cells_.resize(5);
-  cavity_.border.resize(4);
-  marks_.assign(5, Unmarked);
-  this->makeCells(kInfinite, cavity_);
-  return true;
-}
-
-void Delaunay::checkVolume() const
-{
-  if (this->spansVolume())
-  {
-    return;
-  }
-  const auto chosen = this->independent();
-  std::size_t different = 0;
-  for (std::size_t k = 0; different < 4 && k < points_.size(); ++k)
-  {
-    different += std::find(points_.begin(), points_.begin() + std::ptrdiff_t(k), points_[k]) ==
-      points_.begin() + std::ptrdiff_t(k);
-  }
-  if (different < 4)
-  {
-    throw InvalidGeometry("The point set has " + std::to_string(different) +
-      " different points: a closed surface needs at least 4.");
-  }
-  throw InvalidGeometry(std::string("All points lie on one ") + (chosen[2] < 0 ? "line" : "plane") +
-    ": a closed surface needs points that span a volume.");
-}
-
 Delaunay::Place Delaunay::locate(const Vec3& point, std::int32_t near)
 {
-  std::int32_t start = near >= 0 ? cellOf_[near] : -1;
-  if (start < 0)
-  {
-    start = 0;
-    while (!this->used(start))
-    {
-      ++start;
-    }
-  }
-  const std::int32_t cell = this->walk(point, start);
+  return this->placeIn(this->walk(anywhere_, point, this->startOfWalk(near)), point);
+}
+
+Delaunay::Place Delaunay::placeIn(std::int32_t cell, const Vec3& point) const
+{
   for (const std::int32_t vertex : cells_[cell].vertices)
   {
     if (vertex != kInfinite && points_[vertex] == point)
@@ -184,9 +51,44 @@ Delaunay::Place Delaunay::locate(const Vec3& point, std::int32_t near)
   return { cell, -1 };
 }
 
+std::int32_t Delaunay::startOfWalk(std::int32_t near) const
+{
+  std::int32_t start = near >= 0 ? cellOf_[near] : -1;
+  if (start < 0)
+  {
+    start = 0;
+    while (!this->used(start))
+    {
+      ++start;
+    }
+  }
+  return start;
+}
+
+// Whether nobody else may be changing what is beyond a facet: one whose vertices are of several
+// slabs is between cells that belong to none.
+bool Delaunay::mayCross(const Worker& worker, std::int32_t halfFacet) const
+{
+  if (this->belongs(worker, halfFacet >> 2))
+  {
+    return true;
+  }
+  int first = 0;
+  for (const std::int32_t vertex : this->facet(halfFacet))
+  {
+    const int slab = vertex == kInfinite ? first : slabs_[vertex];
+    if (slab == worker.slab || (first != 0 && slab != first))
+    {
+      return true;
+    }
+    first = slab;
+  }
+  return false;
+}
+
 // Through facets that part the cell from the point, to a cell that holds it. Which of several is
-// taken turns, so that cells of one ball make no circle.
-std::int32_t Delaunay::walk(const Vec3& point, std::int32_t cell)
+// taken turns, so that cells of one ball make no circle. \returns -1 if it may not get there.
+std::int32_t Delaunay::walk(Worker& worker, const Vec3& point, std::int32_t cell) const
 {
   if (!this->finite(cell))
   {
@@ -196,12 +98,12 @@ std::int32_t Delaunay::walk(const Vec3& point, std::int32_t cell)
   std::int32_t entered = -1;
   while (true)
   {
-    turn_ = turn_ * 1664525u + 1013904223u;
+    worker.turn = worker.turn * 1664525u + 1013904223u;
     const Cell& at = cells_[cell];
-    std::int32_t next = -1;
-    for (std::uint32_t k = 0; next < 0 && k < 4; ++k)
+    std::int32_t through = -1;
+    for (std::uint32_t k = 0; through < 0 && k < 4; ++k)
     {
-      const auto facet = static_cast<std::int32_t>((k + (turn_ >> 30)) & 3u);
+      const auto facet = static_cast<std::int32_t>((k + (worker.turn >> 30)) & 3u);
       if (facet == entered)
       {
         continue;
@@ -210,13 +112,18 @@ std::int32_t Delaunay::walk(const Vec3& point, std::int32_t cell)
       if (sideOfPlane(points_[at.vertices[corner[0]]], points_[at.vertices[corner[1]]],
             points_[at.vertices[corner[2]]], point) > 0)
       {
-        next = at.beyond[facet];
+        through = facet;
       }
     }
-    if (next < 0)
+    if (through < 0)
     {
       return cell;
     }
+    if (!this->mayCross(worker, 4 * cell + through))
+    {
+      return -1;
+    }
+    const std::int32_t next = at.beyond[through];
     cell = next >> 2;
     entered = next & 3;
     if (!this->finite(cell))
@@ -244,59 +151,79 @@ bool Delaunay::inConflict(const Cell& cell, const Vec3& point) const
 
 void Delaunay::findCavity(const Vec3& point, const Place& place, Cavity& cavity)
 {
-  cavity.cells.assign(1, place.cell);
+  this->findCavity(anywhere_, point, place.cell, cavity);
+}
+
+// \returns whether all of it belongs to the worker.
+bool Delaunay::findCavity(Worker& worker, const Vec3& point, std::int32_t start, Cavity& cavity)
+{
+  const auto unmarked = static_cast<std::uint8_t>(kMarks * worker.slab);
+  const auto mark = [&](std::int32_t cell, std::uint8_t as) { marks_[cell] = unmarked + as; };
+  cavity.cells.clear();
   cavity.border.clear();
-  marked_.clear();
-  marks_[place.cell] = InCavity;
-  for (std::size_t k = 0; k < cavity.cells.size(); ++k)
+  worker.marked.clear();
+  bool whole = this->belongs(worker, start);
+  if (whole)
+  {
+    cavity.cells.push_back(start);
+    mark(start, kInCavity);
+  }
+  for (std::size_t k = 0; whole && k < cavity.cells.size(); ++k)
   {
     const std::int32_t cell = cavity.cells[k];
     for (std::int32_t facet = 0; facet < 4; ++facet)
     {
       const std::int32_t beyond = cells_[cell].beyond[facet] >> 2;
-      std::uint8_t& mark = marks_[beyond];
-      if (mark == Unmarked)
+      const std::uint8_t marked = marks_[beyond];
+      bool outside = marked == unmarked + kOutside;
+      if (marked == unmarked)
       {
-        const bool conflict = this->inConflict(cells_[beyond], point);
-        mark = conflict ? InCavity : Outside;
-        (conflict ? cavity.cells : marked_).push_back(beyond);
+        outside = !this->inConflict(cells_[beyond], point);
+        mark(beyond, outside ? kOutside : kInCavity);
+        (outside ? worker.marked : cavity.cells).push_back(beyond);
       }
-      if (mark == Outside)
+      else if (marked / kMarks != worker.slab) // so it may not be marked
+      {
+        outside = !this->inConflict(cells_[beyond], point);
+        whole = whole && outside;
+      }
+      if (outside)
       {
         cavity.border.push_back(4 * cell + facet);
       }
     }
   }
-  for (const std::int32_t cell : marked_)
+  for (const std::int32_t cell : worker.marked)
   {
-    marks_[cell] = Unmarked;
+    marks_[cell] = unmarked;
   }
   for (const std::int32_t cell : cavity.cells)
   {
-    marks_[cell] = Unmarked;
+    marks_[cell] = unmarked;
   }
+  return whole;
 }
 
 void Delaunay::star(std::int32_t vertex, std::vector<std::int32_t>& cells)
 {
   cells.assign(1, cellOf_[vertex]);
-  marks_[cells[0]] = InCavity;
+  marks_[cells[0]] = kInCavity;
   for (std::size_t k = 0; k < cells.size(); ++k)
   {
     const Cell& cell = cells_[cells[k]];
     for (int facet = 0; facet < 4; ++facet)
     {
       const std::int32_t beyond = cell.beyond[facet] >> 2;
-      if (cell.vertices[facet] != vertex && marks_[beyond] == Unmarked)
+      if (cell.vertices[facet] != vertex && marks_[beyond] == 0)
       {
-        marks_[beyond] = InCavity;
+        marks_[beyond] = kInCavity;
         cells.push_back(beyond);
       }
     }
   }
   for (const std::int32_t cell : cells)
   {
-    marks_[cell] = Unmarked;
+    marks_[cell] = 0;
   }
 }
 
@@ -306,61 +233,82 @@ std::int32_t Delaunay::fill(const Vec3& point, Cavity& cavity)
   points_.push_back(point);
   cellOf_.push_back(-1);
   local_.push_back(0);
-  this->fill(vertex, cavity);
+  this->fill(anywhere_, vertex, cavity);
   return vertex;
 }
 
-void Delaunay::fill(std::int32_t point, Cavity& cavity)
+// \returns false, and changes nothing, if the worker has no cells left for it.
+bool Delaunay::fill(Worker& worker, std::int32_t point, Cavity& cavity)
 {
-  bases_.clear();
+  worker.bases.clear();
   for (const std::int32_t inner : cavity.border)
   {
-    bases_.push_back({ this->facet(inner), this->beyond(inner), {} });
+    worker.bases.push_back({ this->facet(inner), this->beyond(inner), {} });
   }
-  // Their own places first, then those that were given up, then new ones.
-  while (cavity.cells.size() > bases_.size())
+  if (!this->provideCells(worker, cavity))
   {
-    unused_.push_back(cavity.cells.back());
+    return false;
+  }
+  this->makeCells(worker, point, cavity);
+  cellOf_[point] = cavity.cells[0];
+  return true;
+}
+
+// As many as there are bases: their own places first, then those that were given up, then new ones.
+bool Delaunay::provideCells(Worker& worker, Cavity& cavity)
+{
+  const std::size_t wanted = worker.bases.size();
+  if (worker.slab != 0 &&
+    cavity.cells.size() + worker.unused.size() +
+        static_cast<std::size_t>(worker.endCell - worker.nextCell) <
+      wanted)
+  {
+    return false;
+  }
+  while (cavity.cells.size() > wanted)
+  {
+    worker.unused.push_back(cavity.cells.back());
     cells_[cavity.cells.back()].vertices[0] = kUnused;
     cavity.cells.pop_back();
   }
-  while (cavity.cells.size() < bases_.size() && !unused_.empty())
+  while (cavity.cells.size() < wanted && !worker.unused.empty())
   {
-    const std::int32_t cell = unused_.back();
-    unused_.pop_back();
+    const std::int32_t cell = worker.unused.back();
+    worker.unused.pop_back();
     if (!this->used(cell)) // it may be listed twice, and used since
     {
-      cells_[cell].vertices[0] = point;
+      cells_[cell].vertices[0] = 0;
       cavity.cells.push_back(cell);
     }
   }
-  if (const std::size_t missing = bases_.size() - cavity.cells.size(); missing > 0)
+  if (worker.slab == 0 && cavity.cells.size() < wanted)
   {
-    std::size_t next = cells_.size();
-    if (next + missing > kMostCells)
+    const std::size_t end = cells_.size() + wanted - cavity.cells.size();
+    if (end > kMostCells)
     {
       throw TooLarge("The points have more than " + std::to_string(kMostCells) +
         " tetrahedra, more than can be counted: thin them by a larger Spacing.");
     }
-    cells_.resize(next + missing);
-    marks_.resize(next + missing, Unmarked);
-    for (; next < cells_.size(); ++next)
-    {
-      cavity.cells.push_back(static_cast<std::int32_t>(next));
-    }
+    worker.nextCell = this->cellCount();
+    cells_.resize(end);
+    marks_.resize(end, 0);
   }
-  this->makeCells(point, cavity);
-  cellOf_[point] = cavity.cells[0];
+  while (cavity.cells.size() < wanted)
+  {
+    cavity.cells.push_back(worker.nextCell++);
+  }
+  return true;
 }
 
 void Delaunay::takeBack(const Replaced* begin, const Replaced* end)
 {
   const auto vertex = static_cast<std::int32_t>(points_.size()) - 1;
-  this->star(vertex, cavity_.cells);
-  for (const std::int32_t cell : cavity_.cells)
+  std::vector<std::int32_t>& star = anywhere_.cavity.cells;
+  this->star(vertex, star);
+  for (const std::int32_t cell : star)
   {
     cells_[cell].vertices[0] = kUnused;
-    unused_.push_back(cell);
+    anywhere_.unused.push_back(cell);
   }
   for (const Replaced* old = begin; old != end; ++old)
   {
@@ -383,24 +331,25 @@ void Delaunay::takeBack(const Replaced* begin, const Replaced* end)
   local_.pop_back();
 }
 
-std::int32_t Delaunay::localOf(std::int32_t vertex)
+std::int32_t Delaunay::localOf(Worker& worker, std::int32_t vertex)
 {
-  std::int32_t& local = local_[vertex + 1];
-  if (static_cast<std::size_t>(local) >= locals_.size() || locals_[local] != vertex)
+  std::vector<std::int32_t>& locals = worker.locals;
+  std::int32_t& local = vertex == kInfinite ? worker.infiniteLocal : local_[vertex];
+  if (static_cast<std::size_t>(local) >= locals.size() || locals[local] != vertex)
   {
-    local = static_cast<std::int32_t>(locals_.size());
-    locals_.push_back(vertex);
+    local = static_cast<std::int32_t>(locals.size());
+    locals.push_back(vertex);
   }
   return local;
 }
 
-// A cell on each of bases_, with the point at its top.
-void Delaunay::makeCells(std::int32_t point, Cavity& cavity)
+// A cell on each base, with the point at its top.
+void Delaunay::makeCells(Worker& worker, std::int32_t point, Cavity& cavity)
 {
-  locals_.clear();
-  for (std::size_t k = 0; k < bases_.size(); ++k)
+  worker.locals.clear();
+  for (std::size_t k = 0; k < worker.bases.size(); ++k)
   {
-    Base& base = bases_[k];
+    Base& base = worker.bases[k];
     const std::int32_t number = cavity.cells[k];
     Cell& cell = cells_[number];
     cell.vertices = { point, base.corners[0], base.corners[1], base.corners[2] };
@@ -409,56 +358,57 @@ void Delaunay::makeCells(std::int32_t point, Cavity& cavity)
     cavity.border[k] = 4 * number;
     for (int corner = 0; corner < 3; ++corner)
     {
-      base.local[corner] = this->localOf(base.corners[corner]);
+      base.local[corner] = this->localOf(worker, base.corners[corner]);
       if (base.corners[corner] >= 0)
       {
         cellOf_[base.corners[corner]] = number;
       }
     }
   }
-  if (locals_.size() <= kMostLocals)
+  if (worker.locals.size() <= kMostLocals)
   {
-    this->joinSmall(cavity.cells);
+    this->joinSmall(worker, cavity.cells);
   }
   else
   {
-    this->joinLarge(cavity.cells);
+    this->joinLarge(worker, cavity.cells);
   }
 }
 
 // Two cells share the facet at an edge of their bases, which one has forward, one backward.
-void Delaunay::joinSmall(const std::vector<std::int32_t>& cells)
+void Delaunay::joinSmall(Worker& worker, const std::vector<std::int32_t>& cells)
 {
   // Facet of the edge from the k-th corner of a base to the next: the one opposite to the third.
   constexpr int kFacet[3] = { 3, 1, 2 };
-  const std::size_t count = locals_.size();
-  edges_.resize(std::max(edges_.size(), count * count));
+  const std::size_t count = worker.locals.size();
+  std::vector<std::int32_t>& edgeFacets = worker.edges;
+  edgeFacets.resize(std::max(edgeFacets.size(), count * count));
   for (std::size_t k = 0; k < cells.size(); ++k)
   {
-    const auto& local = bases_[k].local;
+    const auto& local = worker.bases[k].local;
     for (int corner = 0; corner < 3; ++corner)
     {
-      edges_[local[corner] * count + local[(corner + 1) % 3]] = 4 * cells[k] + kFacet[corner];
+      edgeFacets[local[corner] * count + local[(corner + 1) % 3]] = 4 * cells[k] + kFacet[corner];
     }
   }
   for (std::size_t k = 0; k < cells.size(); ++k)
   {
-    const auto& local = bases_[k].local;
+    const auto& local = worker.bases[k].local;
     for (int corner = 0; corner < 3; ++corner)
     {
       cells_[cells[k]].beyond[kFacet[corner]] =
-        edges_[local[(corner + 1) % 3] * count + local[corner]];
+        edgeFacets[local[(corner + 1) % 3] * count + local[corner]];
     }
   }
 }
 
-void Delaunay::joinLarge(const std::vector<std::int32_t>& cells)
+void Delaunay::joinLarge(const Worker& worker, const std::vector<std::int32_t>& cells)
 {
   constexpr int kFacet[3] = { 3, 1, 2 };
   std::vector<std::pair<std::uint64_t, std::int32_t>> edges;
   for (std::size_t k = 0; k < cells.size(); ++k)
   {
-    const auto& local = bases_[k].local;
+    const auto& local = worker.bases[k].local;
     for (int corner = 0; corner < 3; ++corner)
     {
       const auto [low, high] = std::minmax(local[corner], local[(corner + 1) % 3]);

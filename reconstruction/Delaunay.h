@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "reconstruction/RawVector.h"
+
 #include "core/base/Progress.h"
 #include "core/base/Types.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -50,7 +53,8 @@ public:
 
   /// Appends points and inserts them; those that coincide with others stay without cells. As long
   /// as all lie in one plane, none is inserted. Fastest where neighbours follow each other
-  /// (SpatialOrder.h). \pre finite. \throws Cancelled, TooLarge.
+  /// (SpatialOrder.h). Many are inserted in parallel; the result is the same, to the numbers of the
+  /// cells, for any number of threads. \pre finite. \throws Cancelled, TooLarge.
   void insert(const std::vector<Vec3>& points, const Progress& progress);
 
   const std::vector<Vec3>& points() const { return points_; }
@@ -96,38 +100,74 @@ public:
 
 private:
   static constexpr std::int32_t kUnused = -2;
+  // Of a mark, what is left when divided by kMarks; the quotient is the slab of the cell.
+  static constexpr int kMarks = 4;
+  static constexpr std::uint8_t kInCavity = 1;
+  static constexpr std::uint8_t kOutside = 2;
+  static constexpr int kNoSlab = 63;
+  static constexpr std::size_t kMostCells = std::size_t(1) << 29; // half-facets are 32-bit numbers
   struct Base
   {
     std::array<std::int32_t, 3> corners;
     std::int32_t outer;                // half-facet
     std::array<std::int32_t, 3> local; // of the corners
   };
+  // Who inserts points one after the other, with what that takes. Several at a time have a slab of
+  // space each. A cell belongs to a slab if all its finite vertices do; those that belong to none
+  // stay as they are meanwhile, and nobody looks at others' cells. So they need no locks, and what
+  // comes out does not depend on who is first.
+  struct Worker
+  {
+    int slab = 0;                     // from 1 on; 0: all space is its own
+    std::int32_t nextCell = 0;        // new ones are made from here ...
+    std::int32_t endCell = 0;         // ... to here
+    std::vector<std::int32_t> unused; // cells given up
+    std::uint32_t turn = 1;           // of the walk: where it looks first
+    // Scratch of one insertion.
+    Cavity cavity;
+    std::vector<std::int32_t> marked;
+    std::vector<Base> bases;
+    std::vector<std::int32_t> locals;
+    std::int32_t infiniteLocal = 0;
+    std::vector<std::int32_t> edges; // half-facets by pairs of locals
+  };
+  using Order = std::vector<std::int32_t>; // points
 
   bool insertFirst();
   std::array<std::int32_t, 4> independent() const;
-  void insertPoint(std::int32_t point, std::int32_t& near);
-  std::int32_t walk(const Vec3& point, std::int32_t cell);
+  Order insertMost(const Order& order, const Progress& progress);
+  Order insertInSlabs(const Order& order, int axis, const Progress& progress);
+  std::vector<Order> divide(const Order& order, int axis);
+  void markSlabs();
+  void takeOver(const Worker& worker);
+  std::int32_t startOf(const Worker& worker) const;
+  Order insertAll(Worker& worker, const Order& order, const Progress& progress);
+  bool insertPoint(Worker& worker, std::int32_t point, std::int32_t& near);
+
+  bool belongs(const Worker& worker, std::int32_t cell) const
+  {
+    return marks_[cell] / kMarks == worker.slab;
+  }
+  bool mayCross(const Worker& worker, std::int32_t halfFacet) const;
+  std::int32_t startOfWalk(std::int32_t near) const;
+  std::int32_t walk(Worker& worker, const Vec3& point, std::int32_t cell) const;
+  Place placeIn(std::int32_t cell, const Vec3& point) const;
   bool inConflict(const Cell& cell, const Vec3& point) const;
-  void fill(std::int32_t point, Cavity& cavity);
-  std::int32_t localOf(std::int32_t vertex);
-  void makeCells(std::int32_t point, Cavity& cavity);
-  void joinSmall(const std::vector<std::int32_t>& cells);
-  void joinLarge(const std::vector<std::int32_t>& cells);
+  bool findCavity(Worker& worker, const Vec3& point, std::int32_t start, Cavity& cavity);
+  bool fill(Worker& worker, std::int32_t point, Cavity& cavity);
+  bool provideCells(Worker& worker, Cavity& cavity);
+  std::int32_t localOf(Worker& worker, std::int32_t vertex);
+  void makeCells(Worker& worker, std::int32_t point, Cavity& cavity);
+  void joinSmall(Worker& worker, const std::vector<std::int32_t>& cells);
+  void joinLarge(const Worker& worker, const std::vector<std::int32_t>& cells);
 
   std::vector<Vec3> points_;
   std::vector<std::int32_t> cellOf_; // per point
-  std::vector<Cell> cells_;
-  std::vector<std::int32_t> unused_;
-  std::uint32_t turn_ = 1; // of the walk: where it looks first
-
-  // Scratch of one insertion.
-  Cavity cavity_;
+  RawVector<Cell> cells_;
   std::vector<std::uint8_t> marks_; // per cell; all 0 between uses
-  std::vector<std::int32_t> marked_;
-  std::vector<Base> bases_;
-  std::vector<std::int32_t> local_; // per point + 1: its place in locals_, if there
-  std::vector<std::int32_t> locals_;
-  std::vector<std::int32_t> edges_; // half-facets by pairs of locals
+  std::vector<std::int32_t> local_; // per point: its place in locals, if there
+  std::vector<std::uint8_t> slabs_; // per point, while there are some
+  Worker anywhere_;
 };
 
 } // namespace hybridtree

@@ -4,12 +4,14 @@
 #include "reconstruction/SpatialOrder.h"
 
 #include "core/base/Error.h"
+#include "core/base/Parallel.h"
 #include "tests/reconstruction/Samples.h"
 #include "tests/support/CancelAt.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <set>
 
@@ -76,6 +78,16 @@ void expectDelaunay(const Delaunay& delaunay)
   }
 }
 
+std::set<std::array<double, 3>> differentPlaces(const std::vector<Vec3>& points)
+{
+  std::set<std::array<double, 3>> places;
+  for (const Vec3& p : points)
+  {
+    places.insert({ p.x(), p.y(), p.z() });
+  }
+  return places;
+}
+
 double volume(const Delaunay& delaunay)
 {
   double sum = 0.0;
@@ -128,6 +140,50 @@ TEST(Delaunay, IsDelaunayWhateverThePoints)
         [&](const Vec3& q) { return q == p && delaunay.cellOf(&q - inputs[k].data()) >= 0; });
       ASSERT_EQ(in, 1) << "point " << point;
     }
+  }
+}
+
+// So many that several threads insert them.
+TEST(Delaunay, IsTheSameForAnyNumberOfThreads)
+{
+  std::vector<Vec3> doubled = cloud(9000, 11);
+  doubled.insert(doubled.end(), doubled.begin(), doubled.begin() + 3000);
+  // Half of them in one plane, across the slabs.
+  std::vector<Vec3> sheet = cloud(20000, 12);
+  std::for_each(sheet.begin(), sheet.begin() + 10000, [](Vec3& p) { p.z() = 0.5; });
+  std::vector<std::vector<Vec3>> inputs{ grid(22), randomSphere(20000, 13),
+    randomTorus(1.0, 0.4, 20000, 14), doubled, sheet };
+  for (std::size_t k = 0; k < inputs.size(); ++k)
+  {
+    SCOPED_TRACE("input " + std::to_string(k));
+    std::vector<Vec3> ordered;
+    for (const std::int32_t point : spatialOrder(inputs[k], Progress::none()))
+    {
+      ordered.push_back(inputs[k][point]);
+    }
+    Delaunay parallel;
+    setThreadCount(2);
+    parallel.insert(ordered, Progress::none());
+    expectDelaunay(parallel);
+    Delaunay serial;
+    setThreadCount(1);
+    serial.insert(ordered, Progress::none());
+    setThreadCount(0);
+    ASSERT_EQ(parallel.cellCount(), serial.cellCount());
+    for (std::int32_t cell = 0; cell < serial.cellCount(); ++cell)
+    {
+      ASSERT_EQ(parallel.used(cell), serial.used(cell));
+      ASSERT_TRUE(!serial.used(cell) ||
+        (parallel.cell(cell).vertices == serial.cell(cell).vertices &&
+          parallel.cell(cell).beyond == serial.cell(cell).beyond));
+    }
+    const std::set<std::array<double, 3>> different = differentPlaces(ordered);
+    std::size_t inserted = 0;
+    for (std::size_t point = 0; point < ordered.size(); ++point)
+    {
+      inserted += serial.cellOf(static_cast<std::int32_t>(point)) >= 0;
+    }
+    EXPECT_EQ(inserted, different.size());
   }
 }
 
