@@ -80,11 +80,30 @@ std::int32_t Front::nextToPass()
 {
   if (!queue_.empty())
   {
+    this->readAhead();
     return queue_.pop();
   }
   const std::int32_t top = membranes_.top().halfFacet;
   membranes_.pop();
   return top;
+}
+
+// Steps are all over the surface: nearly each would wait for memory several times.
+void Front::readAhead() const
+{
+  constexpr std::size_t kCell = 12;
+  constexpr std::size_t kAround = 6;
+  if (const std::int32_t far = queue_.ahead(kCell); far >= 0)
+  {
+    tetrahedra_.prefetch(far >> 2);
+  }
+  if (const std::int32_t near = queue_.ahead(kAround); near >= 0)
+  {
+    for (int facet = 0; facet < 4; ++facet)
+    {
+      tetrahedra_.prefetch(tetrahedra_.neighbor(near >> 2, facet));
+    }
+  }
 }
 
 // From the hull through wide facets, without looking at the topology; then uncovers what is left.

@@ -65,6 +65,7 @@ private:
   }
   void passEmptySpace(const Progress& progress);
   std::int32_t nextToPass();
+  void readAhead() const;
   void flow(const Progress& progress);
   void openVoids(const Progress& progress);
   bool isBuried(std::int32_t cell) const;

@@ -42,6 +42,15 @@ public:
     return item;
   }
 
+  /// What will come so many pops from now, 0 the next, if nothing is pushed until then and it is of
+  /// the same size; else -1. For prefetching. \pre not empty.
+  std::int32_t ahead(std::size_t pops) const
+  {
+    const std::size_t word = highest(summary_);
+    const std::vector<std::int32_t>& bucket = buckets_[64 * word + highest(filled_[word])];
+    return pops < bucket.size() ? bucket[bucket.size() - 1 - pops] : -1;
+  }
+
 private:
   // The exponent and four bits of the fraction: order by these is order by size.
   static std::size_t bucketOf(float size)
@@ -52,6 +61,9 @@ private:
   }
   static std::size_t highest(std::uint64_t bits)
   {
+#if defined(__GNUC__)
+    return 63 - static_cast<std::size_t>(__builtin_clzll(bits));
+#else
     std::size_t bit = 0;
     for (int step = 32; step > 0; step /= 2)
     {
@@ -62,6 +74,7 @@ private:
       }
     }
     return bit;
+#endif
   }
 
   std::array<std::vector<std::int32_t>, 4096> buckets_;

@@ -100,7 +100,6 @@ void Tetrahedralization::copy(const Delaunay& delaunay, const Progress& progress
   delaunay.checkVolume();
   const std::vector<std::int32_t> number = this->number(delaunay, progress);
   cells_.resize(source_.size());
-  beyond_.resize(source_.size());
   parallelFor(source_.size(), kGrain,
     [&](std::size_t begin, std::size_t end)
     {
@@ -108,11 +107,11 @@ void Tetrahedralization::copy(const Delaunay& delaunay, const Progress& progress
       for (std::size_t k = begin; k < end; ++k)
       {
         const Delaunay::Cell& cell = delaunay.cell(source_[k]);
-        cells_[k] = cell.vertices;
+        cells_[k].vertices = cell.vertices;
         for (int facet = 0; facet < 4; ++facet)
         {
           const std::int32_t beyond = cell.beyond[facet];
-          beyond_[k][facet] = 4 * number[beyond >> 2] + (beyond & 3);
+          cells_[k].beyond[facet] = 4 * number[beyond >> 2] + (beyond & 3);
         }
       }
     });
@@ -123,10 +122,10 @@ void Tetrahedralization::collectStars(const Progress& progress)
 {
   Breath breath(progress);
   starOffset_.assign(points_->size() + 1, 0);
-  for (const Cell& cell : cells_)
+  for (const Delaunay::Cell& cell : cells_)
   {
     breath();
-    for (const std::int32_t vertex : cell)
+    for (const std::int32_t vertex : cell.vertices)
     {
       if (vertex != kInfinite)
       {
@@ -140,7 +139,7 @@ void Tetrahedralization::collectStars(const Progress& progress)
   for (std::int32_t c = 0; c < this->cellCount(); ++c)
   {
     breath();
-    for (const std::int32_t vertex : cells_[c])
+    for (const std::int32_t vertex : this->cell(c))
     {
       if (vertex != kInfinite)
       {
@@ -160,7 +159,7 @@ bool Tetrahedralization::isOrientedGabriel(std::int32_t cell, int facet) const
   const auto corner = this->facet(cell, facet);
   const std::vector<Vec3>& points = *points_;
   return sideOfLeastBall(points[corner[0]], points[corner[1]], points[corner[2]],
-           points[cells_[cell][facet]]) <= 0;
+           points[this->cell(cell)[facet]]) <= 0;
 }
 
 } // namespace hybridtree
