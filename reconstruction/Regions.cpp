@@ -6,6 +6,9 @@
 #include "core/base/Parallel.h"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <iterator>
 #include <limits>
 #include <numeric>
 
@@ -22,11 +25,17 @@ constexpr std::size_t kGrain = 4096;
 // How many steps between two looks at whether to go on.
 constexpr std::size_t kBreath = 65536;
 
+// Passages are taken in stages, those wider than each of these: at every stage those are left out
+// whose sides are one by then, before they are sorted.
+constexpr std::array<float, 3> kStages{ 3.0f, 2.0f, 1.5f };
+
 // A facet between two cells, by size: widest first where sorted.
 struct Passage
 {
   float size;
+  float length;           // longest edge, in world units
   std::int32_t halfFacet; // 4 * cell + facet
+  std::int32_t beyond;    // the other cell
   bool operator<(const Passage& other) const
   {
     return size != other.size ? size > other.size : halfFacet < other.halfFacet;
@@ -35,12 +44,21 @@ struct Passage
 
 struct Passages
 {
-  std::vector<std::int32_t> mouths; // half-facets wider than a mouth, in any order
-  std::vector<Passage> narrower;    // widest first
+  std::vector<Passage> mouths; // wider than a mouth
+  std::array<std::vector<Passage>, kStages.size() + 1> narrower;
+
+  void add(const Passage& passage, double mouth)
+  {
+    const auto stage = static_cast<std::size_t>(std::find_if(kStages.begin(), kStages.end(),
+                                                  [&](float size) { return passage.size > size; }) -
+      kStages.begin());
+    (passage.size > mouth ? mouths : narrower[stage]).push_back(passage);
+  }
 };
 
-Passages widePassages(const Tetrahedralization& tetrahedra, const FacetSize& sizes, double wide,
-  double mouth, const Progress& progress)
+// Of all cells, in parts; each part in any order.
+std::vector<Passages> widePassages(const Tetrahedralization& tetrahedra, const FacetSize& sizes,
+  double wide, double mouth, const Progress& progress)
 {
   const auto count = static_cast<std::size_t>(tetrahedra.finiteCellCount());
   std::vector<Passages> parts((count + kGrain - 1) / kGrain);
@@ -54,28 +72,17 @@ Passages widePassages(const Tetrahedralization& tetrahedra, const FacetSize& siz
       {
         for (int facet = 0; facet < 4; ++facet)
         {
-          const float size =
-            tetrahedra.neighbor(cell, facet) > cell ? sizes.ofFacet(cell, facet) : 0.0f;
-          if (size > mouth)
+          const std::int32_t beyond = tetrahedra.neighbor(cell, facet);
+          const float size = beyond > cell ? sizes.ofFacet(cell, facet) : 0.0f;
+          if (size > wide)
           {
-            part.mouths.push_back(4 * cell + facet);
-          }
-          else if (size > wide)
-          {
-            part.narrower.push_back({ size, 4 * cell + facet });
+            const auto length = static_cast<float>(sizes.lengthOfFacet(cell, facet));
+            part.add({ size, length, 4 * cell + facet, beyond }, mouth);
           }
         }
       }
     });
-  Passages all;
-  for (Passages& part : parts)
-  {
-    all.mouths.insert(all.mouths.end(), part.mouths.begin(), part.mouths.end());
-    all.narrower.insert(all.narrower.end(), part.narrower.begin(), part.narrower.end());
-    part = {};
-  }
-  parallelSort(all.narrower, progress);
-  return all;
+  return parts;
 }
 
 // Disjoint sets of cells that know the longest edge of theirs.
@@ -112,6 +119,36 @@ public:
     return cell;
   }
   double depth(std::int32_t basin) const { return depth_[basin]; }
+  void prefetch(std::int32_t cell) const
+  {
+#if defined(__GNUC__)
+    __builtin_prefetch(&parent_[cell]);
+#endif
+  }
+  // From now on areOne() knows all joins until here, and may be called by several threads.
+  void settle(const Progress& progress)
+  {
+    settled_.resize(parent_.size());
+    parallelFor(parent_.size(), kGrain,
+      [&](std::size_t begin, std::size_t end)
+      {
+        progress.check();
+        for (std::size_t cell = begin; cell < end; ++cell)
+        {
+          std::int32_t root = parent_[cell];
+          while (parent_[root] != root)
+          {
+            root = parent_[root];
+          }
+          settled_[cell] = root;
+        }
+      });
+    parent_ = settled_;
+  }
+  bool areOne(std::int32_t a, std::int32_t b) const
+  {
+    return settled_[a] == settled_[b];
+  }
   void join(std::int32_t a, std::int32_t b)
   {
     if (depth_[a] < depth_[b])
@@ -123,8 +160,34 @@ public:
 
 private:
   std::vector<std::int32_t> parent_;
+  std::vector<std::int32_t> settled_;
   std::vector<double> depth_;
 };
+
+// Those of a stage that may join something, widest first.
+std::vector<Passage> stillApart(const std::vector<Passages>& parts, std::size_t stage,
+  const Basins& basins, const Progress& progress)
+{
+  std::vector<std::vector<Passage>> apart(parts.size());
+  parallelFor(parts.size(), 1,
+    [&](std::size_t begin, std::size_t end)
+    {
+      progress.check();
+      for (std::size_t k = begin; k < end; ++k)
+      {
+        const std::vector<Passage>& all = parts[k].narrower[stage];
+        std::copy_if(all.begin(), all.end(), std::back_inserter(apart[k]),
+          [&](const Passage& p) { return !basins.areOne(p.halfFacet >> 2, p.beyond); });
+      }
+    });
+  std::vector<Passage> sorted;
+  for (const std::vector<Passage>& part : apart)
+  {
+    sorted.insert(sorted.end(), part.begin(), part.end());
+  }
+  parallelSort(sorted, progress);
+  return sorted;
+}
 
 } // namespace
 
@@ -132,45 +195,47 @@ std::vector<Region> findRegions(const Tetrahedralization& tetrahedra, const Face
   double wide, double mouth, const Progress& progress)
 {
   Basins basins(tetrahedra, sizes, progress);
-  const Passages passages = widePassages(tetrahedra, sizes, wide, mouth, progress);
+  const std::vector<Passages> parts = widePassages(tetrahedra, sizes, wide, mouth, progress);
   std::size_t step = 0;
-  const auto forSides = [&](std::int32_t halfFacet, const auto& visit)
+  const auto breathe = [&]
   {
     if (++step % kBreath == 0)
     {
       progress.check();
     }
-    const std::int32_t here = basins.find(halfFacet >> 2);
-    const std::int32_t there = basins.find(tetrahedra.neighbor(halfFacet >> 2, halfFacet & 3));
-    if (here != there)
+  };
+  const auto join = [&](const std::vector<Passage>& passages, bool always)
+  {
+    constexpr std::size_t kAhead = 16;
+    for (std::size_t k = 0; k < passages.size(); ++k)
     {
-      visit(here, there);
+      breathe();
+      const Passage& ahead = passages[std::min(k + kAhead, passages.size() - 1)];
+      basins.prefetch(ahead.halfFacet >> 2);
+      basins.prefetch(ahead.beyond);
+      const std::int32_t here = basins.find(passages[k].halfFacet >> 2);
+      const std::int32_t there = basins.find(passages[k].beyond);
+      if (here != there &&
+        (always || std::min(basins.depth(here), basins.depth(there)) < kDepth * passages[k].length))
+      {
+        basins.join(here, there);
+      }
     }
   };
-  for (const std::int32_t halfFacet : passages.mouths)
+  for (const Passages& part : parts)
   {
-    forSides(halfFacet, [&](std::int32_t here, std::int32_t there) { basins.join(here, there); });
+    join(part.mouths, true);
   }
-  for (const Passage& passage : passages.narrower)
+  for (std::size_t stage = 0; stage <= kStages.size(); ++stage)
   {
-    forSides(passage.halfFacet,
-      [&](std::int32_t here, std::int32_t there)
-      {
-        const double length = sizes.lengthOfFacet(passage.halfFacet >> 2, passage.halfFacet & 3);
-        if (std::min(basins.depth(here), basins.depth(there)) < kDepth * length)
-        {
-          basins.join(here, there);
-        }
-      });
+    basins.settle(progress);
+    join(stillApart(parts, stage, basins, progress), false);
   }
   std::vector<Region> regions(tetrahedra.cellCount(), Region::Outside);
   const std::int32_t outside = basins.find(tetrahedra.finiteCellCount());
   for (std::int32_t cell = 0; cell < tetrahedra.finiteCellCount(); ++cell)
   {
-    if (++step % kBreath == 0)
-    {
-      progress.check();
-    }
+    breathe();
     if (sizes.ofCell(cell) <= wide)
     {
       regions[cell] = Region::Surface;
