@@ -9,6 +9,7 @@
 #include "reconstruction/SolidBoundary.h"
 #include "reconstruction/SolidRepair.h"
 #include "reconstruction/SpatialOrder.h"
+#include "reconstruction/WorkEstimate.h"
 
 #include "core/base/Error.h"
 
@@ -22,9 +23,6 @@ namespace hybridtree
 namespace
 {
 
-// Peak of the whole process on 10^5 to 10^6 points of a bumpy sphere, and a third more: points that
-// fill a volume have more tetrahedra.
-constexpr double kBytesPerPoint = 1300.0;
 // Tetrahedra of at least this size are told apart by the watershed; smaller ones are left to the
 // flow. Low, since the watershed weighs both sides and the flow only knows one.
 constexpr double kWide = 1.0;
@@ -123,7 +121,7 @@ double shareUsed(
 
 void checkMemory(std::size_t points, std::size_t limit)
 {
-  const double bytes = kBytesPerPoint * static_cast<double>(points);
+  const double bytes = estimateWork(points).bytes;
   if (bytes <= static_cast<double>(limit))
   {
     return;
@@ -132,7 +130,7 @@ void checkMemory(std::size_t points, std::size_t limit)
   std::ostringstream text;
   text << "Reconstruction of " << points << " points takes some " << std::ceil(bytes / mib)
        << " MiB of memory; the limit is " << std::floor(static_cast<double>(limit) / mib)
-       << " MiB, enough for " << std::floor(static_cast<double>(limit) / kBytesPerPoint)
+       << " MiB, enough for " << std::floor(static_cast<double>(limit) / estimateWork(1).bytes)
        << " points. Thin them by a larger Spacing.";
   throw TooLarge(text.str());
 }

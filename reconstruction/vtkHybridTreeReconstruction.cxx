@@ -8,6 +8,7 @@
 #include "reconstruction/KeptReconstruction.h"
 #include "reconstruction/LevelOfDetail.h"
 #include "reconstruction/PointCloud.h"
+#include "reconstruction/WorkEstimate.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
@@ -30,6 +31,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 
 namespace
 {
@@ -280,6 +282,9 @@ void vtkHybridTreeReconstruction::Reconstruct(vtkDataSet* input, vtkPolyData* ou
   {
     this->Kept->clear();
   }
+  this->TellEstimate(points.size(),
+    this->LevelOfDetail == ALL_POINTS ? estimateWork(points.size())
+                                      : estimateWork(points.size(), detail));
   ReconstructedSurface surface = keep   ? this->Kept->update(points, detail, options, part)
     : this->LevelOfDetail == ALL_POINTS ? reconstruct(points, options, part)
                                         : reconstruct(points, detail, options, part);
@@ -301,9 +306,25 @@ void vtkHybridTreeReconstruction::Reconstruct(vtkDataSet* input, vtkPolyData* ou
 }
 
 //------------------------------------------------------------------------------
+void vtkHybridTreeReconstruction::TellEstimate(
+  std::size_t points, const hybridtree::WorkEstimate& estimate)
+{
+  this->EstimatedMemory = std::ldexp(estimate.bytes, -20);
+  this->EstimatedTime = estimate.seconds;
+  std::ostringstream text;
+  text.precision(2);
+  text << "Reconstructing " << points << " points, in about " << estimate.seconds << " s and "
+       << std::ceil(this->EstimatedMemory) << " MiB";
+  this->SetProgressText(text.str().c_str());
+  vtkDebugMacro(<< text.str());
+}
+
+//------------------------------------------------------------------------------
 void vtkHybridTreeReconstruction::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  os << indent << "EstimatedMemory: " << this->EstimatedMemory << "\n";
+  os << indent << "EstimatedTime: " << this->EstimatedTime << "\n";
   os << indent << "Spacing: " << this->Spacing << "\n";
   os << indent << "RemoveOutliers: " << this->RemoveOutliers << "\n";
   os << indent << "OutlierNeighbors: " << this->OutlierNeighbors << "\n";

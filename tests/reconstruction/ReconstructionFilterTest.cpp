@@ -27,6 +27,7 @@
 #include <functional>
 #include <limits>
 #include <set>
+#include <string>
 #include <utility>
 
 namespace
@@ -47,6 +48,24 @@ void fill(vtkPointSet* data, const std::vector<Vec3>& source, int type)
   }
   data->SetPoints(points);
   data->GetPointData()->AddArray(number);
+}
+
+TEST(ReconstructionFilter, TellsWhatItWillTakeBeforeItStarts)
+{
+  vtkNew<vtkPolyData> input;
+  fill(input, randomTorus(1.0, 0.4, 4000, 1), VTK_FLOAT);
+  vtkNew<vtkHybridTreeReconstruction> filter;
+  EXPECT_EQ(filter->GetEstimatedMemory(), 0.0);
+  filter->SetInputData(input);
+  filter->Update();
+  const double all = filter->GetEstimatedMemory();
+  EXPECT_GT(all, 1.0);
+  EXPECT_GT(filter->GetEstimatedTime(), 0.0);
+  EXPECT_NE(std::string(filter->GetProgressText()).find("4000 points"), std::string::npos);
+  filter->SetLevelOfDetailToTargetVertices();
+  filter->SetTargetVertices(400);
+  filter->Update();
+  EXPECT_LT(filter->GetEstimatedMemory(), all);
 }
 
 TEST(ReconstructionFilter, MakesALiveMeshOfThePoints)
