@@ -21,19 +21,6 @@ constexpr std::size_t kMostLocals = 64;
 
 } // namespace
 
-bool Delaunay::finite(std::int32_t cell) const
-{
-  const auto& v = cells_[cell].vertices;
-  return v[0] >= 0 && v[1] >= 0 && v[2] >= 0 && v[3] >= 0;
-}
-
-std::array<std::int32_t, 3> Delaunay::facet(std::int32_t halfFacet) const
-{
-  const auto& v = cells_[halfFacet >> 2].vertices;
-  const int* corner = kFacetCorners[halfFacet & 3];
-  return { v[corner[0]], v[corner[1]], v[corner[2]] };
-}
-
 Delaunay::Place Delaunay::locate(const Vec3& point, std::int32_t near)
 {
   return this->placeIn(this->walk(anywhere_, point, this->startOfWalk(near)), point);
@@ -300,11 +287,9 @@ bool Delaunay::provideCells(Worker& worker, Cavity& cavity)
   return true;
 }
 
-void Delaunay::takeBack(const Replaced* begin, const Replaced* end)
+void Delaunay::takeBack(
+  const std::vector<std::int32_t>& star, const Replaced* begin, const Replaced* end)
 {
-  const auto vertex = static_cast<std::int32_t>(points_.size()) - 1;
-  std::vector<std::int32_t>& star = anywhere_.cavity.cells;
-  this->star(vertex, star);
   for (const std::int32_t cell : star)
   {
     cells_[cell].vertices[0] = kUnused;

@@ -66,8 +66,17 @@ public:
   std::int32_t cellCount() const { return static_cast<std::int32_t>(cells_.size()); }
   const Cell& cell(std::int32_t cell) const { return cells_[cell]; }
   bool used(std::int32_t cell) const { return cells_[cell].vertices[0] != kUnused; }
-  bool finite(std::int32_t cell) const;
-  std::array<std::int32_t, 3> facet(std::int32_t halfFacet) const;
+  bool finite(std::int32_t cell) const
+  {
+    const auto& v = cells_[cell].vertices;
+    return v[0] >= 0 && v[1] >= 0 && v[2] >= 0 && v[3] >= 0;
+  }
+  std::array<std::int32_t, 3> facet(std::int32_t halfFacet) const
+  {
+    const auto& v = cells_[halfFacet >> 2].vertices;
+    const int* corner = kFacetCorners[halfFacet & 3];
+    return { v[corner[0]], v[corner[1]], v[corner[2]] };
+  }
   std::int32_t beyond(std::int32_t halfFacet) const
   {
     return cells_[halfFacet >> 2].beyond[halfFacet & 3];
@@ -96,7 +105,8 @@ public:
     Cell cell;
   };
   /// Undoes the last insertion. \pre it was made by fill(), and replaced these cells.
-  void takeBack(const Replaced* begin, const Replaced* end);
+  /// \param star the cells around the last point.
+  void takeBack(const std::vector<std::int32_t>& star, const Replaced* begin, const Replaced* end);
 
 private:
   static constexpr std::int32_t kUnused = -2;

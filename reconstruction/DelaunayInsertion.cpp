@@ -112,6 +112,7 @@ Delaunay::Order Delaunay::insertInSlabs(const Order& order, int axis, const Prog
   {
     this->takeOver(worker);
   }
+  progress.report(1.0);
   std::fill(marks_.begin(), marks_.end(), 0);
   Order all;
   std::vector<std::size_t> next(left.size(), 0);
@@ -205,7 +206,7 @@ Delaunay::Order Delaunay::insertAll(Worker& worker, const Order& order, const Pr
     if (k % kBreath == 0)
     {
       progress.check();
-      if (worker.slab <= 1) // one of several will do
+      if (worker.slab == 0) // else this may be another thread than the caller's
       {
         progress.report(double(k) / double(order.size()));
       }

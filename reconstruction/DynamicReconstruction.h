@@ -5,6 +5,7 @@
 #include "reconstruction/DynamicSurface.h"
 #include "reconstruction/LevelOfDetail.h"
 #include "reconstruction/PointOctree.h"
+#include "reconstruction/SizeQueue.h"
 #include "reconstruction/TrianglePoints.h"
 
 #include "core/base/Progress.h"
@@ -149,6 +150,7 @@ private:
   std::size_t measured_ = 0;          // points that are with a triangle, or removed
   std::unique_ptr<State> state_;      // null: to be started again
   std::vector<Candidate> candidates_; // scratch; some no longer hold
+  SizeQueue waiting_;                 // of those, by distance
 };
 
 } // namespace hybridtree

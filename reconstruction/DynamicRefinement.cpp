@@ -35,6 +35,7 @@ void DynamicReconstruction::refine(const Phase& phase, const Progress& progress)
 bool DynamicReconstruction::refineOnce(const Phase& phase, const Progress& progress)
 {
   candidates_.clear();
+  waiting_ = {};
   state_->near.forgive();
   for (const std::int32_t triangle : state_->surface.surface())
   {
@@ -69,40 +70,26 @@ bool DynamicReconstruction::refineOnce(const Phase& phase, const Progress& progr
 std::vector<std::int32_t> DynamicReconstruction::nextRound(const Phase& phase)
 {
   constexpr double kNear = 0.5;
-  candidates_.erase(std::remove_if(candidates_.begin(), candidates_.end(),
-                      [&](const Candidate& candidate)
-                      {
-                        return state_->near.refused(candidate.point) ||
-                          state_->near.distance(candidate.point) != candidate.distance;
-                      }),
-    candidates_.end());
-  std::size_t count = candidates_.size();
-  if (const std::size_t wanted = phase.vertices - std::min(phase.vertices, this->vertexCount());
-      wanted / 2 < count)
-  {
-    count = wanted / 2 + 1;
-    std::nth_element(candidates_.begin(),
-      candidates_.begin() + static_cast<std::ptrdiff_t>(count - 1), candidates_.end());
-  }
-  const auto chosen = candidates_.begin() + static_cast<std::ptrdiff_t>(count);
+  const std::size_t wanted = phase.vertices - std::min(phase.vertices, this->vertexCount());
   double farthest = 0.0;
-  std::for_each(candidates_.begin(), chosen,
-    [&](const Candidate& candidate) { farthest = std::max(farthest, candidate.distance); });
   std::vector<std::int32_t> round;
-  std::vector<Candidate> rest(chosen, candidates_.end());
-  std::for_each(candidates_.begin(), chosen,
-    [&](const Candidate& candidate)
+  while (!waiting_.empty() && round.size() <= wanted / 2)
+  {
+    const std::int32_t number = waiting_.pop();
+    const Candidate& candidate = candidates_[number];
+    if (state_->near.refused(candidate.point) ||
+      state_->near.distance(candidate.point) != candidate.distance)
     {
-      if (candidate.distance > kNear * farthest)
-      {
-        round.push_back(candidate.point);
-      }
-      else
-      {
-        rest.push_back(candidate);
-      }
-    });
-  candidates_.swap(rest);
+      continue;
+    }
+    farthest = std::max(farthest, candidate.distance);
+    if (candidate.distance <= kNear * farthest)
+    {
+      waiting_.push(static_cast<float>(candidate.distance), number);
+      break;
+    }
+    round.push_back(candidate.point);
+  }
   std::sort(round.begin(), round.end());
   round.erase(std::unique(round.begin(), round.end()), round.end());
   return round;
@@ -171,6 +158,8 @@ void DynamicReconstruction::offerFarthest(const Phase& phase, std::int32_t trian
     });
   if (farthest.point >= 0)
   {
+    waiting_.push(
+      static_cast<float>(farthest.distance), static_cast<std::int32_t>(candidates_.size()));
     candidates_.push_back(farthest);
   }
 }

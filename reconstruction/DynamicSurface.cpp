@@ -2,7 +2,9 @@
 #include "reconstruction/DynamicSurface.h"
 
 #include "reconstruction/DelaunayPredicates.h"
+#include "reconstruction/JoinedParts.h"
 
+#include "core/base/Parallel.h"
 #include "core/geometry/PointTriangle.h"
 
 #include <algorithm>
@@ -228,7 +230,8 @@ void DynamicSurface::takeBack(const Step& step)
   {
     inside_[cell] = 0;
   }
-  delaunay_.takeBack(replaced_.data() + step.replaced, replaced_.data() + replaced_.size());
+  delaunay_.takeBack(
+    cavity_.cells, replaced_.data() + step.replaced, replaced_.data() + replaced_.size());
   for (std::size_t k = step.replaced; k < replaced_.size(); ++k)
   {
     inside_[replaced_[k].number] = replacedInside_[k];
@@ -367,15 +370,25 @@ DynamicSurface::Outcome DynamicSurface::surfaceAt(std::int32_t site, double tole
 
 std::vector<std::int32_t> DynamicSurface::surface() const
 {
-  std::vector<std::int32_t> triangles;
-  for (std::int32_t facet = 0; facet < 4 * delaunay_.cellCount(); ++facet)
-  {
-    if (inside_[facet >> 2] != 0 && inside_[delaunay_.beyond(facet) >> 2] == 0)
+  constexpr std::size_t kGrain = 16384;
+  const auto count = static_cast<std::size_t>(delaunay_.cellCount());
+  std::vector<std::vector<std::int32_t>> parts((count + kGrain - 1) / kGrain);
+  parallelFor(count, kGrain,
+    [&](std::size_t begin, std::size_t end)
     {
-      triangles.push_back(facet);
-    }
-  }
-  return triangles;
+      for (auto cell = static_cast<std::int32_t>(begin); cell < static_cast<std::int32_t>(end);
+           ++cell)
+      {
+        for (std::int32_t facet = 4 * cell; inside_[cell] != 0 && facet < 4 * cell + 4; ++facet)
+        {
+          if (inside_[delaunay_.beyond(facet) >> 2] == 0)
+          {
+            parts[begin / kGrain].push_back(facet);
+          }
+        }
+      }
+    });
+  return joined(parts);
 }
 
 // Where all that a point replaces is on one side of the surface: the surface's nearest facet on the

@@ -102,6 +102,7 @@ void Front::readAhead() const
     for (int facet = 0; facet < 4; ++facet)
     {
       tetrahedra_.prefetch(tetrahedra_.neighbor(near >> 2, facet));
+      sizes_.prefetch(tetrahedra_.neighbor(near >> 2, facet));
     }
   }
 }

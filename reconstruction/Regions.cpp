@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "reconstruction/Regions.h"
 
+#include "reconstruction/JoinedParts.h"
 #include "reconstruction/ParallelSort.h"
 
 #include "core/base/Parallel.h"
@@ -180,11 +181,7 @@ std::vector<Passage> stillApart(const std::vector<Passages>& parts, std::size_t 
           [&](const Passage& p) { return !basins.areOne(p.halfFacet >> 2, p.beyond); });
       }
     });
-  std::vector<Passage> sorted;
-  for (const std::vector<Passage>& part : apart)
-  {
-    sorted.insert(sorted.end(), part.begin(), part.end());
-  }
+  std::vector<Passage> sorted = joined(apart);
   parallelSort(sorted, progress);
   return sorted;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "reconstruction/SolidBoundary.h"
 
+#include "reconstruction/JoinedParts.h"
+
 #include "core/base/Parallel.h"
 
 #include <algorithm>
@@ -42,17 +44,6 @@ bool isLoop(LinkEdge* begin, LinkEdge* end)
   } while (at != begin && steps <= end - begin);
   // Who is back after as many steps as there are edges has met each, so each starts elsewhere.
   return at == begin && steps == end - begin;
-}
-
-// Vectors of parts, one after the other.
-std::vector<std::int32_t> joined(const std::vector<std::vector<std::int32_t>>& parts)
-{
-  std::vector<std::int32_t> all;
-  for (const auto& part : parts)
-  {
-    all.insert(all.end(), part.begin(), part.end());
-  }
-  return all;
 }
 
 } // namespace

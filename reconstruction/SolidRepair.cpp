@@ -352,6 +352,7 @@ void SolidRepair::fillStar(std::int32_t vertex, const std::vector<Clump>&)
 void SolidRepair::removeCrumbsAndVoids()
 {
   constexpr std::size_t kCrumb = 100;
+  constexpr std::size_t kAhead = 16;
   std::vector<std::uint8_t> seen(inside_.size(), 0);
   std::vector<std::vector<std::int32_t>> solids;
   std::vector<std::vector<std::int32_t>> voids;
@@ -372,6 +373,7 @@ void SolidRepair::removeCrumbsAndVoids()
       {
         progress_.check();
       }
+      tetrahedra_.prefetch(cells[std::min(k + kAhead, cells.size() - 1)]);
       for (int facet = 0; facet < 4; ++facet)
       {
         const std::int32_t beyond = tetrahedra_.neighbor(cells[k], facet);

@@ -142,19 +142,31 @@ void TrianglePoints::follow(const DynamicSurface& surface)
     }
   }
   const std::vector<Vec3>& sites = surface.sites();
+  news_.clear();
+  for (const std::int32_t triangle : change.added)
+  {
+    const Triangle t = surface.triangle(triangle);
+    Box3 box(sites[t[0]]);
+    box.extend(sites[t[1]]).extend(sites[t[2]]);
+    news_.push_back({ sites[t[0]], sites[t[1]], sites[t[2]], box, triangle });
+  }
   for (const std::int32_t point : pool_)
   {
+    const Vec3& p = (*points_)[point];
     double least = std::numeric_limits<double>::infinity();
-    std::int32_t nearest = change.added.front();
-    for (const std::int32_t triangle : change.added)
+    std::int32_t nearest = news_.front().number;
+    for (const New& triangle : news_)
     {
-      const Triangle t = surface.triangle(triangle);
+      if (triangle.box.squaredExteriorDistance(p) > least) // most are farther
+      {
+        continue;
+      }
       const double squared =
-        nearestOnTriangle((*points_)[point], sites[t[0]], sites[t[1]], sites[t[2]]).squaredDistance;
+        nearestOnTriangle(p, triangle.a, triangle.b, triangle.c).squaredDistance;
       if (squared < least)
       {
         least = squared;
-        nearest = triangle;
+        nearest = triangle.number;
       }
     }
     this->put(point, nearest, std::sqrt(least));

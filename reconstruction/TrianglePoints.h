@@ -65,6 +65,12 @@ private:
     std::int32_t next = -1; // of the points of its triangle
     bool refused = false;
   };
+  struct New
+  {
+    Vec3 a, b, c;
+    Box3 box;
+    std::int32_t number;
+  };
   void put(std::int32_t point, std::int32_t triangle, double distance);
   std::int32_t takeList(std::int32_t triangle);
 
@@ -72,6 +78,7 @@ private:
   std::vector<State> states_;       // per point
   std::vector<std::int32_t> first_; // per number of a triangle
   std::vector<std::int32_t> pool_;  // scratch
+  std::vector<New> news_;           // scratch
 };
 
 } // namespace hybridtree
