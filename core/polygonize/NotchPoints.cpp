@@ -24,13 +24,13 @@ constexpr int kJudging = 3;  // and the one until which it must look like a crea
 
 constexpr double kLeastAngle = 0.43; // 25 degrees, seen from near
 constexpr double kLeastShare = 0.5;  // of the first angle between the planes that is left there
-constexpr double kSmooth = 0.98; // cosine of the surface's normal to the mean of those of the rim
+constexpr double kSmooth = 0.97; // cosine of the surface's normal to the mean of those of the rim
 
 // In cells.
 constexpr double kFlat = 0.08; // first guess of the height of what need not be looked at
-constexpr double kOffSmooth =
-  0.03; // and share, by which a smooth surface may be off what the normals
-constexpr double kOffShare = 0.3; // at the rim say
+// By which, and by which share, a smooth surface may be off what the normals at the rim say.
+constexpr double kOffSmooth = 0.03;
+constexpr double kOffShare = 1.0;
 constexpr double kLeastCrease = 0.2;
 constexpr double kLeastCurve = 0.3;
 constexpr double kLeastRise = 0.15; // first guess of a height that may be that of a curve
@@ -95,10 +95,10 @@ private:
 
   bool isSmooth(const NotchSite& site, const TouchingPlane& plane) const
   {
-    const double expected = site.smoothHeight();
-    return plane.normal.dot(site.middleNormal()) > kSmooth &&
-      std::abs(std::abs(plane.ahead) - std::abs(expected)) <
-      kOffSmooth * cell_ + kOffShare * std::abs(expected);
+    const double off = std::abs(plane.ahead);
+    const double expected = std::abs(site.smoothHeight());
+    return off < kLeastCurve * cell_ && plane.normal.dot(site.middleNormal()) > kSmooth &&
+      std::abs(off - expected) < kOffSmooth * cell_ + kOffShare * expected;
   }
 
   TouchingPlanes planesAt(const std::vector<Vec3>& points) const
