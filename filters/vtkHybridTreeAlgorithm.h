@@ -54,7 +54,7 @@ public:
 
   ///@{
   /**
-   * Target edge length of the output's triangles, world units; 0 (the default) means a hundredth of
+   * Target edge length of the output's triangles, world units; 0 (the default) means about 1/100 of
    * the diagonal of the shape's bounds. Does not change the shape.
    */
   virtual void SetEdgeLength(double length);
