@@ -5,6 +5,7 @@
 // reported as skipped.
 
 #include "reconstruction/Convection.h"
+#include "reconstruction/DynamicReconstruction.h"
 #include "reconstruction/LevelOfDetail.h"
 #include "tests/reconstruction/DemoPoints.h"
 #include "tests/reconstruction/Samples.h"
@@ -101,6 +102,60 @@ void levelOfDetail(benchmark::State& state)
     });
 }
 
+std::size_t verticesOf(const PointSet& points, double share)
+{
+  return static_cast<std::size_t>(share * static_cast<double>(points.size()));
+}
+
+constexpr double kCoarse = 31126.0 / 134344.0;
+constexpr double kFine = 45000.0 / 134344.0;
+
+// What a change of the level from one share of the points to another takes, the way back not
+// counted.
+void relevel(benchmark::State& state, double from, double to)
+{
+  const PointSet& points = pointSet(static_cast<int>(state.range(0)));
+  state.SetLabel(kNames[state.range(0)]);
+  if (points.empty())
+  {
+    state.SkipWithError("not here: needs libcgal-demo, or ../shared/data");
+    return;
+  }
+  DynamicReconstruction kept(points);
+  for (const double share : { std::min(from, to), from })
+  {
+    kept.update({ 0.0, verticesOf(points, share) });
+  }
+  for (auto _ : state)
+  {
+    kept.update({ 0.0, verticesOf(points, to) });
+    state.PauseTiming();
+    kept.update({ 0.0, verticesOf(points, from) });
+    state.ResumeTiming();
+  }
+}
+
+void finerLevel(benchmark::State& state)
+{
+  relevel(state, kCoarse, kFine);
+}
+
+void coarserLevel(benchmark::State& state)
+{
+  relevel(state, kFine, kCoarse);
+}
+
+// To set beside it.
+void freshFineLevel(benchmark::State& state)
+{
+  measure(state,
+    [](const PointSet& points)
+    {
+      const LevelOfDetail detail{ 0.0, verticesOf(points, kFine) };
+      return reconstruct(points, detail).mesh.triangles.size();
+    });
+}
+
 // Every point within 0.3 % of the diagonal.
 void tolerance(benchmark::State& state)
 {
@@ -150,6 +205,9 @@ BENCHMARK(cgalDelaunay)->Apply(allSets);
 BENCHMARK(cgalAdvancingFront)->Apply(allSets);
 BENCHMARK(convection)->Apply(allSets);
 BENCHMARK(levelOfDetail)->Apply(allSets);
+BENCHMARK(freshFineLevel)->Apply(allSets);
+BENCHMARK(finerLevel)->Apply(allSets);
+BENCHMARK(coarserLevel)->Apply(allSets);
 BENCHMARK(tolerance)->Apply(allSets);
 
 } // namespace
