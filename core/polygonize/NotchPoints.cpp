@@ -48,15 +48,19 @@ class NotchFinder
 public:
   NotchFinder(const FieldSource& field, double cell) : field_(field), cell_(cell) {}
 
-  void add(const NotchSite& site, NotchPoint& result) { sites_.push_back({ &site, &result, {} }); }
+  void add(const NotchSite& site, NotchPoint& result)
+  {
+    const Vec3 middle = site.middle();
+    sites_.push_back({ &site, &result, middle, middle, 0.0, {}, true });
+  }
 
   void run()
   {
     this->keepFar();
-    this->findFirstPlanes();
-    for (Search& search : sites_)
+    this->findCreases();
+    for (const Search& search : sites_)
     {
-      if (!this->findCrease(search) && search.result->off >= kLeastRise * cell_)
+      if (!(search.isCrease && this->settle(search)) && search.result->off >= kLeastRise * cell_)
       {
         this->rise(search);
       }
@@ -68,7 +72,11 @@ private:
   {
     const NotchSite* site;
     NotchPoint* result;
+    Vec3 point;  ///< where the planes of the steps before meet; at first the middle
+    Vec3 target; ///< the point of the crease next to this is wanted
+    double wideAngle = 0.0;
     TouchingPlanes planes; ///< of the step at hand
+    bool isCrease = true;  ///< until a step tells otherwise
   };
 
   /// Leaves out those that are on the surface, nearly, or as far below it as the normals of the rim
@@ -118,37 +126,40 @@ private:
     return planes;
   }
 
-  bool findCrease(Search& search) const
+  /// One question for all sites at every step.
+  void findCreases()
   {
-    const Vec3 middle = search.site->middle();
-    Vec3 point = middle;
-    Vec3 target = middle; // the point of the crease next to this is wanted
-    double wideAngle = 0.0;
     for (int step = 0; step < kSteps; ++step)
     {
-      if (step > 0)
+      this->askAround(kWays[step]);
+      for (Search& search : sites_)
       {
-        search.planes = this->planesAt(this->placesAround(*search.site, kWays[step], point));
-      }
-      const double angle = this->areNear(search.planes) ? widestAngle(search.planes) : 0.0;
-      wideAngle = step == 0 ? angle : wideAngle;
-      if (step <= kJudging && angle < std::max(kLeastAngle, kLeastShare * wideAngle))
-      {
-        return false;
-      }
-      const Meeting meeting = meetingOf(search.planes, target, kFarthest * cell_);
-      if (!meeting.found)
-      {
-        return false;
-      }
-      point = meeting.point;
-      if (step <= kShifting)
-      {
-        point += this->toUpright(*search.site, meeting) * meeting.edge;
-        target = point;
+        search.isCrease = search.isCrease && this->approach(search, step);
       }
     }
-    return this->settle(search, point);
+  }
+
+  /// Whether it still looks like a crease.
+  bool approach(Search& search, int step) const
+  {
+    const double angle = this->areNear(search.planes) ? widestAngle(search.planes) : 0.0;
+    search.wideAngle = step == 0 ? angle : search.wideAngle;
+    if (step <= kJudging && angle < std::max(kLeastAngle, kLeastShare * search.wideAngle))
+    {
+      return false;
+    }
+    const Meeting meeting = meetingOf(search.planes, search.target, kFarthest * cell_);
+    if (!meeting.found)
+    {
+      return false;
+    }
+    search.point = meeting.point;
+    if (step <= kShifting)
+    {
+      search.point += this->toUpright(*search.site, meeting) * meeting.edge;
+      search.target = search.point;
+    }
+    return true;
   }
 
   std::vector<Vec3> placesAround(const NotchSite& site, double way, const Vec3& point) const
@@ -161,24 +172,27 @@ private:
     return places;
   }
 
-  /// Those of the first step, by one question for all sites.
-  void findFirstPlanes()
+  void askAround(double way)
   {
     std::vector<Vec3> places;
     for (const Search& search : sites_)
     {
-      for (const Vec3& place : this->placesAround(*search.site, kWays[0], search.site->middle()))
+      if (search.isCrease)
       {
-        places.push_back(place);
+        const std::vector<Vec3> around = this->placesAround(*search.site, way, search.point);
+        places.insert(places.end(), around.begin(), around.end());
       }
     }
     const TouchingPlanes planes = this->planesAt(places);
     auto next = planes.begin();
     for (Search& search : sites_)
     {
-      const int count = search.site->isEdge() ? 2 : 3;
-      search.planes.assign(next, next + count);
-      next += count;
+      if (search.isCrease)
+      {
+        const int count = search.site->isEdge() ? 2 : 3;
+        search.planes.assign(next, next + count);
+        next += count;
+      }
     }
   }
 
@@ -205,8 +219,9 @@ private:
       { return plane.normal.allFinite() && std::abs(plane.ahead) <= kFarthest * cell_; });
   }
 
-  bool settle(const Search& search, Vec3 point) const
+  bool settle(const Search& search) const
   {
+    Vec3 point = search.point;
     const Vec3 normal = middleNormal(search.planes, kLeastAngle).stableNormalized();
     double slope = 0.0;
     for (const TouchingPlane& plane : search.planes)
