@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ostream>
 #include <vector>
 
 // The pruned sums beside their definition (BlendedField.h).
@@ -174,6 +175,13 @@ struct Case
   BlendingControl control;
   ConvolutionKernel kernel;
 };
+
+void PrintTo(const Case& of, std::ostream* out)
+{
+  *out << (of.control.kind == BlendingKind::Paper ? "paper" : "neighbours") << " within "
+       << of.control.distance
+       << (of.kernel.kind == KernelKind::Cauchy ? ", Cauchy kernel" : ", compact kernel");
+}
 
 class BlendSumsCases : public testing::TestWithParam<Case>
 {
