@@ -224,7 +224,7 @@ std::int32_t Delaunay::startOf(const Worker& worker) const
 {
   for (std::int32_t point = 0; point < static_cast<std::int32_t>(cellOf_.size()); ++point)
   {
-    if (cellOf_[point] >= 0 && (worker.slab == 0 || slabs_[point] == worker.slab))
+    if ((worker.slab == 0 || slabs_[point] == worker.slab) && cellOf_[point] >= 0)
     {
       return point;
     }
