@@ -176,11 +176,11 @@ private:
       moved.points.push_back(this->middleAround(v));
       moved.normals.push_back(mesh_.normals[v]);
     }
-    projectPoints(field_, all, kMoveReach * cellSize_, moved);
+    const std::vector<char> found = projectPoints(field_, all, kMoveReach * cellSize_, moved);
     bool any = false;
     for (std::size_t k = 0; k < moving.size(); ++k)
     {
-      any = this->move(moving[k], moved.points[k], moved.normals[k]) || any;
+      any = (found[k] && this->move(moving[k], moved.points[k], moved.normals[k])) || any;
     }
     return any;
   }

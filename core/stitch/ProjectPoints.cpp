@@ -4,7 +4,9 @@
 #include "core/base/Parallel.h"
 #include "core/base/Scratch.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace hybridtree
 {
@@ -27,7 +29,8 @@ public:
   {
   }
 
-  void run(std::size_t point)
+  /// \return false where there is none; the point stays.
+  bool run(std::size_t point)
   {
     const Vec3 start = mesh_.points[point];
     const bool inside = this->isInside(start);
@@ -36,7 +39,7 @@ public:
     std::vector<Vec3> ways{ ahead, -ahead };
     if (this->search(point, start, ways, inside))
     {
-      return;
+      return true;
     }
     ways.clear();
     for (int axis = 0; axis < 3; ++axis)
@@ -44,7 +47,7 @@ public:
       ways.push_back(Vec3::Unit(axis));
       ways.push_back(-Vec3::Unit(axis));
     }
-    this->search(point, start, ways, inside);
+    return this->search(point, start, ways, inside);
   }
 
 private:
@@ -89,15 +92,16 @@ private:
   TriangleMesh& mesh_;
 };
 
-/// \return the points that did not settle.
+/// \return the places in the list of points that did not settle.
 std::vector<std::size_t> newton(const FieldSource& field, const std::size_t* begin,
   std::size_t count, double reach, TriangleMesh& mesh)
 {
-  std::vector<std::size_t> active(begin, begin + count);
+  std::vector<std::size_t> active(count);
+  std::iota(active.begin(), active.end(), 0);
   std::vector<Vec3> place;
-  for (const std::size_t point : active)
+  for (std::size_t k = 0; k < count; ++k)
   {
-    place.push_back(mesh.points[point]);
+    place.push_back(mesh.points[begin[k]]);
   }
   std::vector<std::size_t> failed;
   for (int step = 0; step < kNewtonSteps && !active.empty(); ++step)
@@ -116,14 +120,15 @@ std::vector<std::size_t> newton(const FieldSource& field, const std::size_t* beg
       const double squared = gradient.squaredNorm();
       const Vec3 move = gradient * ((kThreshold - values[k]) / squared);
       const Vec3 to = place[k] + move;
-      if (!(squared * reach * reach > 1e-20) || !((to - mesh.points[active[k]]).norm() <= reach))
+      if (!(squared * reach * reach > 1e-20) ||
+        !((to - mesh.points[begin[active[k]]]).norm() <= reach))
       {
         failed.push_back(active[k]);
       }
       else if (move.norm() <= kSettled * reach)
       {
-        mesh.points[active[k]] = to;
-        mesh.normals[active[k]] = gradient / -std::sqrt(squared);
+        mesh.points[begin[active[k]]] = to;
+        mesh.normals[begin[active[k]]] = gradient / -std::sqrt(squared);
       }
       else
       {
@@ -139,9 +144,10 @@ std::vector<std::size_t> newton(const FieldSource& field, const std::size_t* beg
 
 } // namespace
 
-void projectPoints(const FieldSource& field, const std::vector<std::size_t>& points, double reach,
-  TriangleMesh& mesh)
+std::vector<char> projectPoints(const FieldSource& field, const std::vector<std::size_t>& points,
+  double reach, TriangleMesh& mesh)
 {
+  std::vector<char> found(points.size(), 0);
   parallelFor(points.size(), kPointsPerTask,
     [&](std::size_t begin, std::size_t end)
     {
@@ -158,11 +164,13 @@ void projectPoints(const FieldSource& field, const std::vector<std::size_t>& poi
         return;
       }
       NormalSearch search(*near, kSearchReach * reach, mesh);
-      for (const std::size_t point : newton(*near, &points[begin], end - begin, reach, mesh))
+      std::fill(found.begin() + std::ptrdiff_t(begin), found.begin() + std::ptrdiff_t(end), 1);
+      for (const std::size_t k : newton(*near, &points[begin], end - begin, reach, mesh))
       {
-        search.run(point);
+        found[begin + k] = search.run(points[begin + k]) ? 1 : 0;
       }
     });
+  return found;
 }
 
 } // namespace hybridtree
