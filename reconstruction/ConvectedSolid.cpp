@@ -9,7 +9,6 @@
 #include "reconstruction/SolidBoundary.h"
 #include "reconstruction/SolidRepair.h"
 #include "reconstruction/SpatialOrder.h"
-#include "reconstruction/Votes.h"
 #include "reconstruction/WorkEstimate.h"
 
 #include "core/base/Error.h"
@@ -35,12 +34,6 @@ constexpr double kPolesOfHoles = 1.5;
 constexpr double kFewUsed = 0.9;
 // It is kept if it reaches this many times as many.
 constexpr double kMoreUsed = 1.05;
-// Where points are overlooked, votes are taken on what is outside (Votes.h). What comes out is kept
-// if it leaves at most this share of them hidden.
-constexpr double kFewerHidden = 0.5;
-// And if it is in no more pieces, each handle more uncovers this many, and what was a ball gets no
-// more than one: others may be faults of the sampling.
-constexpr std::ptrdiff_t kPointsOfHandle = 30;
 
 // Whether no solid was found, or but crumbs along the surface of something open: none of them
 // touches a hundredth of the points.
@@ -86,11 +79,10 @@ bool solidIsMissing(const Tetrahedralization& tetrahedra, const std::vector<std:
 using Solid = std::vector<std::uint8_t>;
 
 Solid solid(const Tetrahedralization& tetrahedra, const FacetSize& sizes,
-  const std::vector<Region>& regions, bool openPockets, Voids voids, const Progress& progress,
-  Membranes membranes = Membranes::Wide)
+  const std::vector<Region>& regions, bool openPockets, Voids voids, const Progress& progress)
 {
   Front front(tetrahedra, sizes, regions);
-  front.run(openPockets, voids, membranes, progress);
+  front.run(openPockets, voids, progress);
   std::vector<std::uint8_t> inside = front.inside();
   repairSolid(tetrahedra, inside, voids, progress);
   return inside;
@@ -112,104 +104,19 @@ Solid solidFromHull(
   return solid(tetrahedra, sizes, regions, false, Voids::Filled, progress);
 }
 
-// Of a solid's boundary.
-struct Outcome
-{
-  std::vector<std::uint8_t> used; // per point: whether it is on it
-  std::size_t points = 0;         // that are
-  std::ptrdiff_t handles = 0;     // less components
-
-  double share() const { return double(points) / double(used.size()); }
-};
-
-Outcome outcomeOf(
+// Share of the points that are on the boundary of a solid.
+double shareUsed(
   const Tetrahedralization& tetrahedra, const Solid& inside, const Progress& progress)
 {
-  Outcome outcome;
-  outcome.used.assign(tetrahedra.points().size(), 0);
-  const std::vector<std::int32_t> facets = boundaryFacets(tetrahedra, inside, progress);
-  for (const std::int32_t halfFacet : facets)
+  std::vector<std::uint8_t> used(tetrahedra.points().size(), 0);
+  for (const std::int32_t halfFacet : boundaryFacets(tetrahedra, inside, progress))
   {
     for (const std::int32_t vertex : tetrahedra.facet(halfFacet >> 2, halfFacet & 3))
     {
-      outcome.used[vertex] = 1;
+      used[vertex] = 1;
     }
   }
-  outcome.points =
-    static_cast<std::size_t>(std::count(outcome.used.begin(), outcome.used.end(), 1));
-  // Of a closed surface of triangles.
-  outcome.handles = (std::ptrdiff_t(facets.size() / 2) - std::ptrdiff_t(outcome.points)) / 2;
-  return outcome;
-}
-
-// How many a solid falls into; pieces that touch by no facet are two.
-int pieces(const Tetrahedralization& tetrahedra, const Solid& inside)
-{
-  int count = 0;
-  Solid left = inside;
-  std::vector<std::int32_t> cells;
-  for (std::int32_t seed = 0; seed < tetrahedra.finiteCellCount(); ++seed)
-  {
-    count += left[seed];
-    cells.assign(left[seed], seed);
-    left[seed] = 0;
-    while (!cells.empty())
-    {
-      const std::int32_t cell = cells.back();
-      cells.pop_back();
-      for (int facet = 0; facet < 4; ++facet)
-      {
-        const std::int32_t beyond = tetrahedra.neighbor(cell, facet);
-        if (left[beyond])
-        {
-          left[beyond] = 0;
-          cells.push_back(beyond);
-        }
-      }
-    }
-  }
-  return count;
-}
-
-// Whether points that are not used lie together: single ones are noise, or where a surface is
-// sharp; many, a wall, a hole or a gap that was not entered.
-bool someAreOverlooked(
-  const Tetrahedralization& tetrahedra, const FacetSize& sizes, std::vector<std::uint8_t> used)
-{
-  constexpr std::size_t kMany = 16;
-  constexpr double kNear = 2.0; // spacings
-  const auto& points = tetrahedra.points();
-  std::vector<std::int32_t> group;
-  for (std::int32_t seed = 0; seed < static_cast<std::int32_t>(used.size()); ++seed)
-  {
-    if (used[seed])
-    {
-      continue;
-    }
-    group.assign(1, seed);
-    used[seed] = 1;
-    for (std::size_t k = 0; k < group.size(); ++k)
-    {
-      const double reach = kNear * sizes.spacing(group[k]);
-      for (const std::int32_t cell : tetrahedra.star(group[k]))
-      {
-        for (const std::int32_t other : tetrahedra.cell(cell))
-        {
-          if (other != Tetrahedralization::kInfinite && !used[other] &&
-            (points[other] - points[group[k]]).norm() < reach)
-          {
-            used[other] = 1;
-            group.push_back(other);
-          }
-        }
-      }
-    }
-    if (group.size() >= kMany)
-    {
-      return true;
-    }
-  }
-  return false;
+  return double(std::count(used.begin(), used.end(), 1)) / double(used.size());
 }
 
 void checkMemory(std::size_t points, std::size_t limit)
@@ -309,43 +216,22 @@ std::vector<std::uint8_t> convectSolid(const Tetrahedralization& tetrahedra,
   Solid inside =
     solid(tetrahedra, sizes, findRegions(tetrahedra, sizes, kWide, options.pocketFactor, progress),
       options.openPockets, Voids::Filled, ProgressPart(progress, 0.1, 0.7));
-  Outcome outcome = outcomeOf(tetrahedra, inside, progress);
-  const auto takeIf = [&](Solid&& other, const auto& better)
-  {
-    Outcome others = outcomeOf(tetrahedra, other, progress);
-    if (better(others))
-    {
-      inside.swap(other);
-      outcome = std::move(others);
-    }
-  };
+  double used = shareUsed(tetrahedra, inside, progress);
   // At first as mouths are wide; then, as where a part is missing, no mouth is taken for granted.
   for (const double mouth : { options.pocketFactor, std::numeric_limits<double>::infinity() })
   {
-    if (outcome.share() < kFewUsed)
+    if (used < kFewUsed)
     {
       sides.mouth = mouth;
       sides.poles = std::isinf(mouth) ? kPolesOfHoles : kPoles;
-      takeIf(bySides(0.7, 0.75),
-        [&](const Outcome& other) { return other.share() > kMoreUsed * outcome.share(); });
-    }
-  }
-  if (options.openPockets && options.closeHoles &&
-    someAreOverlooked(tetrahedra, sizes, outcome.used))
-  {
-    const std::vector<Region> regions =
-      voteOnRegions(tetrahedra, sizes, inside, kWide, ProgressPart(progress, 0.75, 0.8));
-    Solid voted = solid(tetrahedra, sizes, regions, true, Voids::Filled,
-      ProgressPart(progress, 0.8, 0.9), Membranes::Narrow);
-    const bool whole = pieces(tetrahedra, voted) <= pieces(tetrahedra, inside);
-    takeIf(std::move(voted),
-      [&](const Outcome& other)
+      Solid other = bySides(0.7, 0.8);
+      const double otherUsed = shareUsed(tetrahedra, other, progress);
+      if (otherUsed > kMoreUsed * used)
       {
-        const auto more = std::ptrdiff_t(other.points) - std::ptrdiff_t(outcome.points);
-        const std::ptrdiff_t handles = other.handles - outcome.handles;
-        return whole && 1.0 - other.share() < kFewerHidden * (1.0 - outcome.share()) &&
-          more >= kPointsOfHandle * handles && (outcome.handles > -1 || handles <= 1);
-      });
+        inside.swap(other);
+        used = otherUsed;
+      }
+    }
   }
   if (solidIsMissing(tetrahedra, inside))
   {

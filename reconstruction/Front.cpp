@@ -12,12 +12,6 @@ namespace
 // A membrane is torn from this size on (FacetSize::certainOfFacet): the sampling's own gaps are
 // smaller.
 constexpr double kMembrane = 1.75;
-// Where narrow ones are torn too, from this size on, and if thick: at least so many tetrahedra, and
-// no more of their facets open than this share. A wall that is taken for a membrane is a layer of
-// flat tetrahedra, open on both sides.
-constexpr double kNarrow = 1.3;
-constexpr std::size_t kThick = 8;
-constexpr double kOpen = 0.8;
 // Empty space is passed at once through facets of at least this size (FacetSize::certainOfFacet).
 // Twice a wide membrane would do for speed, but made handles on one in twenty meshes.
 constexpr double kEmpty = 12.0;
@@ -44,10 +38,9 @@ Front::Front(
   }
 }
 
-void Front::run(bool openPockets, Voids voids, Membranes membranes, const Progress& progress)
+void Front::run(bool openPockets, Voids voids, const Progress& progress)
 {
   openPockets_ = openPockets;
-  torn_ = membranes;
   this->passEmptySpace(progress);
   this->flow(progress);
   if (voids == Voids::Kept)
@@ -65,18 +58,17 @@ void Front::flow(const Progress& progress)
       progress.check();
       progress.report(double(passed_) / double(tetrahedra_.finiteCellCount()));
     }
-    std::int32_t top = 0;
-    if (queue_.empty())
+    const bool torn = queue_.empty();
+    const std::int32_t top = this->nextToPass();
+    if (!this->onSurface(top >> 2, top & 3))
     {
-      if (this->takeWidestMembrane(top))
-      {
-        this->tear(top >> 2);
-      }
       continue;
     }
-    this->readAhead();
-    top = queue_.pop();
-    if (this->onSurface(top >> 2, top & 3) && this->mayPass(top))
+    if (torn)
+    {
+      this->tear(top >> 2);
+    }
+    else if (this->mayPass(top))
     {
       this->pass(top >> 2);
       ++passed_;
@@ -84,109 +76,16 @@ void Front::flow(const Progress& progress)
   }
 }
 
-// \returns whether it is still there, and to be torn.
-bool Front::takeWidestMembrane(std::int32_t& halfFacet)
+std::int32_t Front::nextToPass()
 {
-  const Membrane widest = membranes_.top();
+  if (!queue_.empty())
+  {
+    this->readAhead();
+    return queue_.pop();
+  }
+  const std::int32_t top = membranes_.top().halfFacet;
   membranes_.pop();
-  halfFacet = widest.halfFacet;
-  return this->onSurface(halfFacet >> 2, halfFacet & 3) &&
-    (torn_ == Membranes::Wide ||
-      ((widest.size > kMembrane || this->isThick(halfFacet >> 2)) &&
-        this->partsTheOutside(widest)));
-}
-
-// Whether the front has come to a membrane from two sides that are apart around there. If it is one
-// side, what would be torn is no hole of the object, but a loop of the sampling's own size.
-bool Front::partsTheOutside(const Membrane& membrane)
-{
-  constexpr double kAround = 2.0;   // times its width
-  constexpr double kCertain = 3.0;  // wider ones are torn in any case
-  constexpr std::size_t kMost = 64; // cells of the membrane that are walked
-  if (membrane.size > kCertain)
-  {
-    return true;
-  }
-  seen_.resize(inside_.size(), 0);
-  const auto mark = [&](std::int32_t cell)
-  {
-    const bool first = seen_[cell] != look_;
-    seen_[cell] = look_;
-    return first;
-  };
-  const std::int32_t start = membrane.halfFacet >> 2;
-  const auto& points = tetrahedra_.points();
-  const auto corners = tetrahedra_.facet(start, membrane.halfFacet & 3);
-  const Vec3 middle = (points[corners[0]] + points[corners[1]] + points[corners[2]]) / 3.0;
-  const double reach = kAround * sizes_.lengthOfFacet(start, membrane.halfFacet & 3);
-  const auto isNear = [&](std::int32_t cell)
-  {
-    const auto& v = tetrahedra_.cell(cell);
-    return std::any_of(v.begin(), v.end(),
-      [&](std::int32_t vertex)
-      {
-        return vertex != Tetrahedralization::kInfinite &&
-          (points[vertex] - middle).squaredNorm() < reach * reach;
-      });
-  };
-
-  ++look_;
-  std::vector<std::int32_t> beside; // passed cells along the membrane
-  std::vector<std::int32_t> cells{ start };
-  mark(start);
-  for (std::size_t k = 0; k < cells.size(); ++k)
-  {
-    for (int facet = 0; facet < 4; ++facet)
-    {
-      const std::int32_t beyond = tetrahedra_.neighbor(cells[k], facet);
-      if (!this->isInside(beyond))
-      {
-        beside.push_back(beyond);
-      }
-      else if (cells.size() < kMost && regions_[beyond] == Region::Outside && mark(beyond))
-      {
-        cells.push_back(beyond);
-      }
-    }
-  }
-  // From the first of them, as far as it is near.
-  cells.assign(1, beside.front());
-  mark(beside.front());
-  for (std::size_t k = 0; k < cells.size(); ++k)
-  {
-    for (int facet = 0; facet < 4; ++facet)
-    {
-      const std::int32_t beyond = tetrahedra_.neighbor(cells[k], facet);
-      if (!this->isInside(beyond) && isNear(beyond) && mark(beyond))
-      {
-        cells.push_back(beyond);
-      }
-    }
-  }
-  return std::any_of(beside.begin(), beside.end(),
-    [&](std::int32_t cell) { return isNear(cell) && seen_[cell] != look_; });
-}
-
-// Of the membrane that a cell is of; what is near the cell, if it is large.
-bool Front::isThick(std::int32_t cell) const
-{
-  constexpr std::size_t kMost = 64;
-  std::vector<std::int32_t> cells{ cell };
-  std::size_t open = 0;
-  for (std::size_t k = 0; k < cells.size(); ++k)
-  {
-    for (int facet = 0; facet < 4; ++facet)
-    {
-      const std::int32_t beyond = tetrahedra_.neighbor(cells[k], facet);
-      open += !this->isInside(beyond);
-      if (cells.size() < kMost && this->isInside(beyond) && regions_[beyond] == Region::Outside &&
-        std::find(cells.begin(), cells.end(), beyond) == cells.end())
-      {
-        cells.push_back(beyond);
-      }
-    }
-  }
-  return cells.size() >= kThick && double(open) <= kOpen * double(cells.size());
+  return top;
 }
 
 // Steps are all over the surface: nearly each would wait for memory several times.
@@ -334,11 +233,10 @@ bool Front::mayPass(std::int32_t halfFacet)
   }
   held_[cell] |= bitOf(halfFacet & 3);
   // ofFacet is no less, and cheaper.
-  const double least = torn_ == Membranes::Wide ? kMembrane : kNarrow;
-  if (regions_[cell] == Region::Outside && sizes_.ofFacet(cell, halfFacet & 3) > least)
+  if (regions_[cell] == Region::Outside && sizes_.ofFacet(cell, halfFacet & 3) > kMembrane)
   {
     const double size = sizes_.certainOfFacet(cell, halfFacet & 3);
-    if (size > least)
+    if (size > kMembrane)
     {
       membranes_.push({ size, halfFacet });
     }

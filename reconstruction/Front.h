@@ -16,13 +16,6 @@
 namespace hybridtree
 {
 
-/// Which membranes are torn (Front).
-enum class Membranes : std::uint8_t
-{
-  Wide,  ///< than the sampling's own gaps: where sizes alone have told the regions
-  Narrow ///< also smaller ones of many tetrahedra: where the regions are known better (Votes.h)
-};
-
 /// The moving surface of convection: the boundary of the tetrahedra it has not passed, largest
 /// facet first. It passes
 /// - tetrahedra of the outside through any half-facet if pockets are to be opened, else through
@@ -48,7 +41,7 @@ public:
   /// Shrinks the front from the convex hull, or that part of it before infinite cells that are not
   /// Inside. Then, if voids are kept, from within spaces of the outside that it has not reached.
   /// Once. \throws Cancelled.
-  void run(bool openPockets, Voids voids, Membranes membranes, const Progress& progress);
+  void run(bool openPockets, Voids voids, const Progress& progress);
 
   /// Per cell: 1 if not passed; infinite cells 0 unless Inside.
   const std::vector<std::uint8_t>& inside() const { return inside_; }
@@ -71,7 +64,7 @@ private:
     return this->isInside(cell) && !this->isInside(tetrahedra_.neighbor(cell, facet));
   }
   void passEmptySpace(const Progress& progress);
-  bool takeWidestMembrane(std::int32_t& halfFacet);
+  std::int32_t nextToPass();
   void readAhead() const;
   void flow(const Progress& progress);
   void openVoids(const Progress& progress);
@@ -80,8 +73,6 @@ private:
   void uncover(std::int32_t cell, int facet);
   bool mayEverPass(std::int32_t cell, int facet) const;
   bool mayPass(std::int32_t halfFacet);
-  bool isThick(std::int32_t cell) const;
-  bool partsTheOutside(const Membrane& membrane);
   void tear(std::int32_t cell);
   void pass(std::int32_t cell);
   bool keepsTopology(std::int32_t cell) const;
@@ -91,13 +82,10 @@ private:
   const FacetSize& sizes_;
   const std::vector<Region>& regions_;
   bool openPockets_ = true;
-  Membranes torn_ = Membranes::Wide;
   std::size_t passed_ = 0;
   std::vector<std::uint8_t> inside_;  // per cell
   std::vector<std::uint8_t> held_;    // per cell: facets through which it may not be passed yet
   std::vector<std::uint8_t> reached_; // per point: whether a cell around it is passed
-  std::vector<std::int32_t> seen_;    // scratch per cell
-  std::int32_t look_ = 0;             // number of the last search, which marks what it has seen
   SizeQueue queue_;
   std::priority_queue<Membrane> membranes_;
 };

@@ -273,9 +273,7 @@ TEST(Convection, EachStepLooksWhetherToGoOn)
   EXPECT_THROW(findRegions(tetrahedra, sizes, 1.0, 6.0, CancelAt(0)), Cancelled);
   const std::vector<Region> regions = findRegions(tetrahedra, sizes, 1.0, 6.0);
   EXPECT_THROW(findSides(tetrahedra, sizes, {}, CancelAt(0)), Cancelled);
-  EXPECT_THROW(
-    Front(tetrahedra, sizes, regions).run(true, Voids::Filled, Membranes::Wide, CancelAt(0)),
-    Cancelled);
+  EXPECT_THROW(Front(tetrahedra, sizes, regions).run(true, Voids::Filled, CancelAt(0)), Cancelled);
   std::vector<std::uint8_t> inside(tetrahedra.cellCount(), 0);
   EXPECT_THROW(repairSolid(tetrahedra, inside, Voids::Filled, CancelAt(0)), Cancelled);
 }
