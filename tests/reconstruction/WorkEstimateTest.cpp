@@ -10,7 +10,8 @@
 #include <atomic>
 #include <vector>
 
-#if defined(__GLIBC__)
+// AddressSanitizer has an allocator of its own, which mallinfo2 does not see.
+#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__)
 #include <malloc.h>
 
 namespace
