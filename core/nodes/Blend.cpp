@@ -301,13 +301,20 @@ private:
       });
   }
 
+  static PointBatch fewPoints(PointBatch points, std::size_t begin)
+  {
+    return points.slice(begin, std::min(kFewPoints, points.size - begin));
+  }
+
   /// What is 0 only where the field is. Its bounds tell that for many points at once.
-  static void valuesOrSigns(const Node& node, PointBatch points, double* value)
+  /// \param boxes of every kFewPoints points.
+  static void valuesOrSigns(
+    const Node& node, PointBatch points, const std::vector<Box3>& boxes, double* value)
   {
     for (std::size_t begin = 0; begin < points.size; begin += kFewPoints)
     {
-      const PointBatch few = points.slice(begin, std::min(kFewPoints, points.size - begin));
-      const Interval range = node.range(boundsOf(few));
+      const PointBatch few = Blend::fewPoints(points, begin);
+      const Interval range = node.range(boxes[begin / kFewPoints]);
       if (range.min > 0.0 || range.max < 0.0 || (range.min == 0.0 && range.max == 0.0))
       {
         std::fill_n(value + begin, few.size, range.min > 0.0 ? 1.0 : range.max);
@@ -327,9 +334,14 @@ private:
     std::array<std::int32_t, kSlice> sole;
     std::fill_n(sole.begin(), points.size, kNone);
     ScratchArray value(points.size);
+    std::vector<Box3> boxes;
+    for (std::size_t begin = 0; begin < points.size; begin += kFewPoints)
+    {
+      boxes.push_back(boundsOf(Blend::fewPoints(points, begin)));
+    }
     for (std::size_t n = 0; n < near.size(); ++n)
     {
-      Blend::valuesOrSigns(*near[n]->node, points, value.data());
+      Blend::valuesOrSigns(*near[n]->node, points, boxes, value.data());
       for (std::size_t k = 0; k < points.size; ++k)
       {
         if (value[k] != 0.0)

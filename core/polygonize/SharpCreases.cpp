@@ -55,8 +55,6 @@ public:
   {
   }
 
-  bool isBent() const { return !loops_.empty(); }
-
   std::size_t run()
   {
     if (loops_.empty())
@@ -372,9 +370,10 @@ private:
 std::size_t sharpenCreases(const FieldSource& field, const Lattice& lattice, std::size_t first,
   TriangleMesh& mesh, const Progress& progress)
 {
-  Sharpener sharpener(field, lattice, first, mesh, progress);
-  const std::size_t points = sharpener.run();
-  return sharpener.isBent()
+  const std::size_t points = Sharpener(field, lattice, first, mesh, progress).run();
+  // Without any crease what is bent is round and small, and to look for notches there would cost
+  // more than all the rest.
+  return points > 0
     ? points + mendNotches(field, lattice.cellSize, std::cos(kLeastAngle), first, mesh, progress)
     : points;
 }
