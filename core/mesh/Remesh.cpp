@@ -2,6 +2,7 @@
 #include "core/mesh/Remesh.h"
 
 #include "core/base/Error.h"
+#include "core/mesh/CompactMesh.h"
 #include "core/mesh/MeshLinks.h"
 
 #include <algorithm>
@@ -463,72 +464,18 @@ private:
 
   // Result.
 
-  /// Leaves out what was removed, and keeps the order of the rest.
+  /// Writes the triangles that are left back.
   void pack()
   {
-    std::vector<Index> number(mesh_.points.size(), MeshLinks::kNone);
-    std::vector<bool> used(mesh_.points.size(), false);
-    std::size_t kept = 0;
-    mesh_.triangles.resize(links_.triangleCount());
-    for (std::size_t t = 0; t < links_.triangleCount(); ++t)
+    std::vector<bool> keep(links_.triangleCount());
+    mesh_.triangles.resize(keep.size());
+    for (std::size_t t = 0; t < keep.size(); ++t)
     {
       this->lookForStop(t);
-      if (links_.isRemoved(t))
-      {
-        continue;
-      }
-      mesh_.triangles[kept] = links_.triangle(t);
-      move(mesh_.sourceLeaf, t, kept);
-      move(mesh_.sourceTriangle, t, kept);
-      for (const Index p : mesh_.triangles[kept])
-      {
-        used[p] = true;
-      }
-      ++kept;
+      keep[t] = !links_.isRemoved(t);
+      mesh_.triangles[t] = links_.triangle(t);
     }
-    mesh_.triangles.resize(kept);
-    shrink(mesh_.sourceLeaf, kept);
-    shrink(mesh_.sourceTriangle, kept);
-    std::size_t points = 0;
-    for (std::size_t p = 0; p < used.size(); ++p)
-    {
-      if (used[p])
-      {
-        number[p] = static_cast<Index>(points);
-        move(mesh_.points, p, points);
-        move(mesh_.normals, p, points);
-        move(mesh_.vertexOrigin, p, points);
-        ++points;
-      }
-    }
-    shrink(mesh_.points, points);
-    shrink(mesh_.normals, points);
-    shrink(mesh_.vertexOrigin, points);
-    for (Triangle& triangle : mesh_.triangles)
-    {
-      for (Index& p : triangle)
-      {
-        p = number[p];
-      }
-    }
-  }
-
-  template <class T>
-  static void move(std::vector<T>& array, std::size_t from, std::size_t to)
-  {
-    if (!array.empty() && from != to)
-    {
-      array[to] = array[from];
-    }
-  }
-
-  template <class T>
-  static void shrink(std::vector<T>& array, std::size_t size)
-  {
-    if (!array.empty())
-    {
-      array.resize(size);
-    }
+    keepTriangles(mesh_, keep);
   }
 
   TriangleMesh& mesh_;

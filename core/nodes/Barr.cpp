@@ -2,7 +2,7 @@
 #include "core/nodes/Barr.h"
 
 #include "core/base/Error.h"
-#include "core/nodes/BarrMap.h"
+#include "core/nodes/FramedWarp.h"
 #include "core/nodes/MeshLimits.h"
 #include "core/nodes/WarpedNode.h"
 

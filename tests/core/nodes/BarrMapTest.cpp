@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/nodes/BarrMap.h"
+#include "core/nodes/FramedWarp.h"
 
 #include "tests/support/Random.h"
 
