@@ -7,6 +7,7 @@
 #include "core/nodes/BlendMesh.h"
 #include "core/nodes/BlendSource.h"
 #include "core/nodes/EnumNames.h"
+#include "core/nodes/FlatSolids.h"
 #include "core/nodes/Membership.h"
 #include "core/nodes/Operator.h"
 
@@ -138,6 +139,10 @@ protected:
     BlendMeshReport report;
     TriangleMesh mesh = blendMesh(*this, this->meshParts(), options_, edgeLength, report, progress);
     meshWarnings_.add(report.warning);
+    for (const std::string& warning : warningsOfFlatCuts(this->children()))
+    {
+      meshWarnings_.add(warning);
+    }
     return mesh;
   }
 

@@ -6,6 +6,7 @@
 #include "core/nodes/Boolean.h"
 #include "core/nodes/BooleanSource.h"
 #include "core/nodes/DerivedNodes.h"
+#include "core/nodes/FlatSolids.h"
 #include "core/nodes/Membership.h"
 #include "core/nodes/Operator.h"
 
@@ -238,6 +239,10 @@ protected:
     TriangleMesh mesh = localBlendMesh(
       *this, { a_, b_, region_, union_.get() }, options_, edgeLength, report, progress);
     meshWarnings_.add(report.warning);
+    for (const std::string& warning : warningsOfFlatCuts(this->children()))
+    {
+      meshWarnings_.add(warning);
+    }
     return mesh;
   }
 
