@@ -6,9 +6,20 @@
 #include "core/polygonize/FieldSource.h"
 
 #include <cstddef>
+#include <vector>
 
 namespace hybridtree
 {
+
+struct NotchOptions
+{
+  double cellSize = 0.0;    ///< of the lattice
+  double leastCosine = 1.0; ///< between normals at the corners of a triangle that is not bent
+  std::size_t first = 0;    ///< of the triangles that may be replaced
+  /// Per point, or empty: whether what is bent around it is known to be merely curved. Where all
+  /// corners of a bent triangle are calm, no notch is looked for unless one beside it was filled.
+  std::vector<bool> calm;
+};
 
 /// Fills the notches that are left where creases cross the cells of a lattice in ways that one
 /// point per polygon cannot follow: two creases in a cell, corners beside a crease, wedges that
@@ -23,10 +34,8 @@ namespace hybridtree
 /// the others keep their order. Bit for bit the same mesh where nothing is that far off. The same
 /// for any number of threads.
 ///
-/// \param first of the triangles that may be replaced. \param cellSize of their lattice.
-/// \param leastCosine between normals at the corners of a triangle that is not bent.
 /// \pre mesh.normals is full. \return the number of new points. \throws Cancelled.
-std::size_t mendNotches(const FieldSource& field, double cellSize, double leastCosine,
-  std::size_t first, TriangleMesh& mesh, const Progress& progress);
+std::size_t mendNotches(const FieldSource& field, const NotchOptions& options, TriangleMesh& mesh,
+  const Progress& progress);
 
 } // namespace hybridtree

@@ -21,8 +21,9 @@ constexpr int kSteps = 5;
 constexpr int kShifting = 2; // the step after which it moves along the crease no more,
 constexpr int kJudging = 3;  // and the one at which it must look like a crease
 
-constexpr double kLeastShare = 0.5;  // of the angle between the corners' normals that is left there
-constexpr double kFarthest = 1.2;    // cells, from the middle of the polygon
+constexpr double kLeastShare = 0.5; // of the angle between the corners' normals that is left there
+constexpr double kEvenBend = 1.05;  // at most between the corners' normals of what is merely curved
+constexpr double kFarthest = 1.2;   // cells, from the middle of the polygon
 constexpr double kBeyondCell = 0.75; // cells
 constexpr double kOnSurface = 1e-6;  // cells
 constexpr double kWorthIt = 2e-3;    // cells, that the point must be off the polygon's middle
@@ -38,8 +39,9 @@ struct Search
   Vec3 middle = Vec3::Zero();
   Vec3 target = Vec3::Zero(); ///< on an edge, the point next to this is wanted
   Vec3 point = Vec3::Zero();
-  TouchingPlanes planes;  ///< one for each corner, from the last step
-  double wideAngle = 0.0; ///< between the normals at the corners
+  TouchingPlanes planes;   ///< one for each corner, from the last step
+  double wideAngle = 0.0;  ///< between the normals at the corners
+  bool looksSharp = false; ///< from near, too
   bool alive = true;
 };
 
@@ -74,7 +76,9 @@ public:
     this->checkWays();
     for (const Search& search : searches_)
     {
+      const bool isEven = search.wideAngle <= kEvenBend && !search.looksSharp;
       result_[search.loop].found = search.alive;
+      result_[search.loop].suspected = !search.alive && !isEven;
     }
   }
 
@@ -112,6 +116,11 @@ private:
   /// One step nearer to the crease; false where there is none.
   bool narrow(Search& search, int step)
   {
+    if (step == 0)
+    {
+      search.wideAngle = widestAngle(search.planes);
+      this->keepNormals(search);
+    }
     for (const TouchingPlane& plane : search.planes)
     {
       if (!plane.normal.allFinite() || !(std::abs(plane.ahead) <= kFarthest * cell_))
@@ -119,15 +128,14 @@ private:
         return false;
       }
     }
-    if (step == 0)
+    if (step == kJudging)
     {
-      search.wideAngle = widestAngle(search.planes);
-      this->keepNormals(search);
-    }
-    if (step == kJudging &&
-      widestAngle(search.planes) < std::max(leastAngle_, kLeastShare * search.wideAngle))
-    {
-      return false;
+      search.looksSharp =
+        widestAngle(search.planes) >= std::max(leastAngle_, kLeastShare * search.wideAngle);
+      if (!search.looksSharp)
+      {
+        return false;
+      }
     }
     const std::optional<Vec3> halfWay =
       step < kShifting ? search.polygon.halfWay(search.planes) : std::nullopt;

@@ -15,6 +15,10 @@ namespace hybridtree
 struct CreasePoint
 {
   bool found = false;
+  /// Not found, and it was no even curve either: from near it looked like a crease up to the end,
+  /// or its corners face so differently that the lattice cannot have followed the surface between
+  /// them.
+  bool suspected = false;
   Vec3 point = Vec3::Zero();
   /// In the middle of those of the faces that meet there, unit length.
   Vec3 normal = Vec3::Zero();

@@ -81,7 +81,32 @@ public:
     return this->rebuild();
   }
 
+  bool isCalm() const
+  {
+    return std::none_of(points_.begin(), points_.end(),
+      [](const CreasePoint& point) { return point.found || point.suspected; });
+  }
+
+  /// Points of the mesh whose polygons are all merely curved, as far as they are bent.
+  std::vector<bool> calmPoints() const
+  {
+    std::vector<bool> calm(mesh_.points.size(), false);
+    for (const bool odd : { false, true })
+    {
+      for (std::size_t loop = 0; loop < loops_.size(); ++loop)
+      {
+        for (std::size_t k = 0; this->isOdd(loop) == odd && k < loops_[loop].corners.size(); ++k)
+        {
+          calm[loops_[loop].corners[k]] = !odd;
+        }
+      }
+    }
+    return calm;
+  }
+
 private:
+  bool isOdd(std::size_t loop) const { return points_[loop].found || points_[loop].suspected; }
+
   std::int32_t apexOf(std::size_t loop) const
   {
     return static_cast<std::int32_t>(firstPoint_ + loop);
@@ -223,11 +248,17 @@ private:
         this->areaNormalOf(made.corners).dot(made.normal) <= 0.0)
       {
         const bool own = this->beyondCell(made.loop) >= this->beyondCell(made.partner);
-        points_[own ? made.loop : made.partner].found = false;
+        this->takeBack(own ? made.loop : made.partner);
         any = true;
       }
     }
     return any;
+  }
+
+  void takeBack(std::size_t loop)
+  {
+    points_[loop].found = false;
+    points_[loop].suspected = true;
   }
 
   double beyondCell(std::size_t loop) const
@@ -252,7 +283,7 @@ private:
       {
         if (triangle >= old)
         {
-          points_[made_[triangle - old].loop].found = false;
+          this->takeBack(made_[triangle - old].loop);
         }
       }
     }
@@ -370,12 +401,14 @@ private:
 std::size_t sharpenCreases(const FieldSource& field, const Lattice& lattice, std::size_t first,
   TriangleMesh& mesh, const Progress& progress)
 {
-  const std::size_t points = Sharpener(field, lattice, first, mesh, progress).run();
-  // Without any crease what is bent is round and small, and to look for notches there would cost
-  // more than all the rest.
-  return points > 0
-    ? points + mendNotches(field, lattice.cellSize, std::cos(kLeastAngle), first, mesh, progress)
-    : points;
+  Sharpener sharpener(field, lattice, first, mesh, progress);
+  const std::size_t points = sharpener.run();
+  // What is merely curved is round and small, and to look for notches there would cost more than
+  // all the rest.
+  return sharpener.isCalm() ? points
+                            : points +
+      mendNotches(field, { lattice.cellSize, std::cos(kLeastAngle), first, sharpener.calmPoints() },
+        mesh, progress);
 }
 
 } // namespace hybridtree

@@ -208,7 +208,8 @@ TEST(CreaseNotches, SourcesStayWithTheirTriangles)
     mesh.sourceTriangle.push_back(static_cast<std::int32_t>(t));
   }
   const TriangleMesh before = mesh;
-  const std::size_t points = mendNotches(field, kCell, std::cos(0.5), 0, mesh, Progress::none());
+  const std::size_t points =
+    mendNotches(field, { kCell, std::cos(0.5), 0, {} }, mesh, Progress::none());
   EXPECT_GT(points, 10u);
   ASSERT_EQ(mesh.sourceLeaf.size(), mesh.triangles.size());
   ASSERT_EQ(mesh.sourceTriangle.size(), mesh.triangles.size());
@@ -239,7 +240,7 @@ TEST(CreaseNotches, TrianglesBeforeTheFirstStay)
   const TriangleMesh before = meshesOf(solid, kCell).lattice;
   TriangleMesh mesh = before;
   const std::size_t first = mesh.triangles.size() / 2;
-  mendNotches(field, kCell, std::cos(0.5), first, mesh, Progress::none());
+  mendNotches(field, { kCell, std::cos(0.5), first, {} }, mesh, Progress::none());
   EXPECT_GT(mesh.points.size(), before.points.size());
   EXPECT_TRUE(std::equal(before.triangles.begin(),
     before.triangles.begin() + static_cast<std::ptrdiff_t>(first), mesh.triangles.begin()));
