@@ -6,6 +6,7 @@
 #include "core/nodes/Node.h"
 #include "vtkExecutive.h"
 #include "vtkHybridTreeArray.h"
+#include "vtkHybridTreeBlocks.h"
 #include "vtkHybridTreeConvert.h"
 #include "vtkHybridTreeFormulation.h"
 #include "vtkHybridTreeLeaves.h"
@@ -16,6 +17,7 @@
 #include "vtkInformationIntegerRequestKey.h"
 #include "vtkInformationVector.h"
 #include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkStringArray.h"
 
@@ -26,7 +28,10 @@ vtkInformationKeyMacro(vtkHybridTreeAlgorithm, TAKES_TREE, Integer);
 /// What a filter remembers from run to run.
 struct vtkHybridTreeAlgorithm::State
 {
-  std::vector<std::vector<hybridtree::Operand>> Inputs; ///< by port and connection
+  /// By port and connection; only during a run.
+  std::vector<std::vector<std::vector<hybridtree::Block>>> Data;
+  std::vector<vtkSmartPointer<vtkDataSet>> Joined;      ///< of Data; only during a run
+  std::vector<std::vector<hybridtree::Operand>> Inputs; ///< read from Data
   NodePtr Node;
   vtkMTimeType NodeTime = 0; ///< modification time of the filter that Node belongs to
   Operands NodeOperands;     ///< operands that Node was made from
@@ -71,7 +76,9 @@ void vtkHybridTreeAlgorithm::SetEdgeLength(double length)
 int vtkHybridTreeAlgorithm::FillInputPortInformation(int port, vtkInformation* info)
 {
   info->Set(TAKES_TREE(), 1);
-  return this->Superclass::FillInputPortInformation(port, info);
+  const int filled = this->Superclass::FillInputPortInformation(port, info);
+  hybridtree::takeComposite(info);
+  return filled;
 }
 
 //------------------------------------------------------------------------------
@@ -111,16 +118,20 @@ int vtkHybridTreeAlgorithm::RequestData(
   ++this->NumberOfExecutions;
   try
   {
-    this->Run(inputs, outputs);
+    this->CollectInputs(inputs);
+    this->Run(outputs);
+    this->ForgetInputs();
     return 1;
   }
   catch (const hybridtree::Cancelled&) // the user's wish, not an error
   {
+    this->ForgetInputs();
     Clear(outputs);
     return 1;
   }
   catch (const std::exception& error)
   {
+    this->ForgetInputs();
     this->Internals->Node = nullptr;
     Clear(outputs);
     vtkErrorMacro(<< error.what());
@@ -129,7 +140,7 @@ int vtkHybridTreeAlgorithm::RequestData(
 }
 
 //------------------------------------------------------------------------------
-void vtkHybridTreeAlgorithm::Run(vtkInformationVector** inputs, vtkInformationVector* outputs)
+void vtkHybridTreeAlgorithm::Run(vtkInformationVector* outputs)
 {
   vtkInformation* info = outputs->GetInformationObject(0);
   if (!hybridtree::isFirstPiece(info))
@@ -138,7 +149,7 @@ void vtkHybridTreeAlgorithm::Run(vtkInformationVector** inputs, vtkInformationVe
     return;
   }
   hybridtree::requireEdgeLength(this->EdgeLength);
-  this->UpdateNode(inputs);
+  this->UpdateNode();
   const hybridtree::FilterProgress progress(this);
   this->WriteOutput(vtkPolyData::GetData(info),
     hybridtree::requested(info) == hybridtree::Formulation::Mesh, progress);
@@ -147,47 +158,93 @@ void vtkHybridTreeAlgorithm::Run(vtkInformationVector** inputs, vtkInformationVe
 }
 
 //------------------------------------------------------------------------------
-vtkHybridTreeAlgorithm::Operands vtkHybridTreeAlgorithm::ReadOperands(
-  vtkInformationVector** inputs, std::vector<std::string>& warnings)
+void vtkHybridTreeAlgorithm::CollectInputs(vtkInformationVector** inputs)
 {
-  const auto ports = static_cast<std::size_t>(this->GetNumberOfInputPorts());
+  auto& data = this->Internals->Data;
+  data.assign(static_cast<std::size_t>(this->GetNumberOfInputPorts()), {});
+  for (std::size_t port = 0; port < data.size(); ++port)
+  {
+    for (int k = 0; k < inputs[port]->GetNumberOfInformationObjects(); ++k)
+    {
+      data[port].push_back(hybridtree::blocksOf(vtkDataObject::GetData(inputs[port], k)));
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkHybridTreeAlgorithm::ForgetInputs()
+{
+  this->Internals->Data.clear();
+  this->Internals->Joined.clear();
+}
+
+//------------------------------------------------------------------------------
+vtkPolyData* vtkHybridTreeAlgorithm::GetWholeInput(int port)
+{
+  State& state = *this->Internals;
+  const auto& connections = state.Data[static_cast<std::size_t>(port)];
+  if (connections.empty())
+  {
+    return nullptr;
+  }
+  state.Joined.push_back(hybridtree::joined(connections.front()));
+  return vtkPolyData::SafeDownCast(state.Joined.back());
+}
+
+//------------------------------------------------------------------------------
+vtkHybridTreeAlgorithm::Operands vtkHybridTreeAlgorithm::ReadOperands(
+  std::vector<std::string>& warnings)
+{
+  const std::size_t ports = this->Internals->Data.size();
   Operands operands(ports);
   this->Internals->Inputs.resize(ports);
   for (std::size_t port = 0; port < ports; ++port)
   {
-    const int number = static_cast<int>(port);
-    if (!this->TakesNodes(number))
+    if (this->TakesNodes(static_cast<int>(port)))
     {
-      continue;
-    }
-    const bool takesTree = this->GetInputPortInformation(number)->Get(TAKES_TREE()) != 0;
-    std::vector<hybridtree::Operand>& connections = this->Internals->Inputs[port];
-    connections.resize(static_cast<std::size_t>(inputs[port]->GetNumberOfInformationObjects()));
-    for (std::size_t k = 0; k < connections.size(); ++k)
-    {
-      vtkPolyData* input = vtkPolyData::GetData(inputs[port], static_cast<int>(k));
-      try
-      {
-        takesTree ? connections[k].read(input, warnings) : connections[k].readMesh(input, warnings);
-      }
-      catch (const hybridtree::Error& error)
-      {
-        throw hybridtree::InvalidGeometry(
-          "Input " + std::to_string(k) + " of port " + std::to_string(port) + ": " + error.what());
-      }
-      operands[port].push_back(connections[k].node());
+      operands[port] = this->ReadPort(port, warnings);
     }
   }
   return operands;
 }
 
 //------------------------------------------------------------------------------
-void vtkHybridTreeAlgorithm::UpdateNode(vtkInformationVector** inputs)
+std::vector<vtkHybridTreeAlgorithm::NodePtr> vtkHybridTreeAlgorithm::ReadPort(
+  std::size_t port, std::vector<std::string>& warnings)
+{
+  vtkInformation* about = this->GetInputPortInformation(static_cast<int>(port));
+  const bool takesTree = about->Get(TAKES_TREE()) != 0;
+  const bool takesMany = about->Get(vtkAlgorithm::INPUT_IS_REPEATABLE()) != 0;
+  const auto& data = this->Internals->Data[port];
+  std::vector<hybridtree::Operand>& connections = this->Internals->Inputs[port];
+  connections.resize(data.size());
+  std::vector<NodePtr> nodes;
+  for (std::size_t k = 0; k < connections.size(); ++k)
+  {
+    try
+    {
+      takesTree ? connections[k].read(data[k], warnings)
+                : connections[k].readMesh(data[k], warnings);
+    }
+    catch (const hybridtree::Error& error)
+    {
+      throw hybridtree::InvalidGeometry(
+        "Input " + std::to_string(k) + " of port " + std::to_string(port) + ": " + error.what());
+    }
+    const std::vector<NodePtr>& shapes = connections[k].nodes();
+    takesMany ? void(nodes.insert(nodes.end(), shapes.begin(), shapes.end()))
+              : nodes.push_back(connections[k].node());
+  }
+  return nodes;
+}
+
+//------------------------------------------------------------------------------
+void vtkHybridTreeAlgorithm::UpdateNode()
 {
   State& state = *this->Internals;
   std::vector<std::string> warnings;
-  Operands operands = this->ReadOperands(inputs, warnings);
-  const bool othersChanged = this->ReadOtherInputs(inputs);
+  Operands operands = this->ReadOperands(warnings);
+  const bool othersChanged = this->ReadOtherInputs();
   if (othersChanged || !state.Node || state.NodeTime != this->GetMTime() ||
     state.NodeOperands != operands)
   {
@@ -236,7 +293,7 @@ bool vtkHybridTreeAlgorithm::TakesNodes(int)
 }
 
 //------------------------------------------------------------------------------
-bool vtkHybridTreeAlgorithm::ReadOtherInputs(vtkInformationVector**)
+bool vtkHybridTreeAlgorithm::ReadOtherInputs()
 {
   return false;
 }

@@ -20,8 +20,12 @@
  * A filter whose consumers all take trees is asked for no mesh (FORMULATION): its output has the
  * tree and no points then.
  *
+ * Composite inputs are taken whole, not block by block. Each block is a shape of its own, and open
+ * meshes among them are taken for patches of one. Where one node is wanted the shapes are united;
+ * inputs that take any number of nodes get them all.
+ *
  * Pieces: the first piece is everything, all other pieces are empty; inputs are asked for as one
- * piece on every process.
+ * piece on every process. An input of which every process has a part nevertheless is gathered.
  *
  * Subclasses are their parameters and MakeNode().
  */
@@ -122,7 +126,14 @@ protected:
    * Reads the ports that take no nodes. True when they hold something else than in the last run, so
    * that the node has to be made again.
    */
-  virtual bool ReadOtherInputs(vtkInformationVector** inputs);
+  virtual bool ReadOtherInputs();
+
+  /**
+   * The first connection of a port as one polydata, for ReadOtherInputs(): blocks of composite
+   * data, and the parts that several processes have, are joined. Null without a connection, and
+   * for other data. Lives as long as the run.
+   */
+  vtkPolyData* GetWholeInput(int port);
 
   /**
    * What stands for the node in the first output: its mesh at EdgeLength, unless a subclass shows
@@ -161,9 +172,12 @@ private:
   void operator=(const vtkHybridTreeAlgorithm&) = delete;
 
 #ifndef __VTK_WRAP__
-  void Run(vtkInformationVector** inputs, vtkInformationVector* outputs);
-  Operands ReadOperands(vtkInformationVector** inputs, std::vector<std::string>& warnings);
-  void UpdateNode(vtkInformationVector** inputs);
+  void CollectInputs(vtkInformationVector** inputs);
+  void ForgetInputs();
+  void Run(vtkInformationVector* outputs);
+  Operands ReadOperands(std::vector<std::string>& warnings);
+  std::vector<NodePtr> ReadPort(std::size_t port, std::vector<std::string>& warnings);
+  void UpdateNode();
   void WriteOutput(vtkPolyData* output, bool withMesh, const hybridtree::Progress& progress);
   void Warn(const std::vector<std::string>& warnings);
   static void Clear(vtkInformationVector* outputs);

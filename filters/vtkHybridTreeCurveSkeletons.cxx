@@ -148,9 +148,9 @@ bool vtkHybridTreeCurveSkeletons::TakesNodes(int)
 }
 
 //------------------------------------------------------------------------------
-bool vtkHybridTreeCurveSkeletons::ReadOtherInputs(vtkInformationVector** inputs)
+bool vtkHybridTreeCurveSkeletons::ReadOtherInputs()
 {
-  this->Input = vtkPolyData::GetData(inputs[0]);
+  this->Input = this->GetWholeInput(0);
   if (!this->Input)
   {
     throw hybridtree::InvalidGeometry("There is no data. Check the filter it comes from.");

@@ -84,7 +84,7 @@ protected:
   NodePtr MakeNode(const Operands& operands) override;
   std::shared_ptr<const hybridtree::Skeleton> MakeSkeleton() override;
   bool TakesNodes(int port) override;
-  bool ReadOtherInputs(vtkInformationVector** inputs) override;
+  bool ReadOtherInputs() override;
 #endif
 
   int FillInputPortInformation(int port, vtkInformation* info) override;

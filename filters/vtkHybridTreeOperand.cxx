@@ -2,6 +2,7 @@
 #include "vtkHybridTreeOperand.h"
 
 #include "core/base/Error.h"
+#include "core/mesh/MeshChecks.h"
 #include "core/nodes/MeshNode.h"
 #include "core/tree/Serialize.h"
 #include "vtkHybridTreeArray.h"
@@ -18,9 +19,9 @@ namespace
 constexpr double kPlainMaximumField = 2.0 * kThreshold;
 constexpr int kPlainExponent = 2;
 
-void requireData(vtkPolyData* input)
+void requireData(bool there)
 {
-  if (!input)
+  if (!there)
   {
     throw InvalidGeometry("There is no data. Check the filter it comes from.");
   }
@@ -46,11 +47,35 @@ void appendAllWarnings(
   }
 }
 
+vtkPolyData* meshOf(const Block& block)
+{
+  requireData(block.data != nullptr);
+  auto* mesh = vtkPolyData::SafeDownCast(block.data);
+  if (!mesh)
+  {
+    throw InvalidGeometry(std::string("It is a ") + block.data->GetClassName() +
+      ", which is no surface mesh. Apply Extract Surface to it first.");
+  }
+  return mesh;
+}
+
+void readBlock(const Block& from, OperandBlock& to, std::vector<std::string>& newWarnings)
+{
+  try
+  {
+    to.read(meshOf(from), newWarnings);
+  }
+  catch (const InvalidGeometry& error)
+  {
+    const std::string which = from.name.empty() ? "" : "Block " + from.name + ": ";
+    throw InvalidGeometry(which + error.what());
+  }
+}
+
 } // namespace
 
-void Operand::read(vtkPolyData* input, std::vector<std::string>& newWarnings)
+void OperandBlock::read(vtkPolyData* input, std::vector<std::string>& newWarnings)
 {
-  requireData(input);
   const CarriedTree carried = carriedTree(input);
   if (!carried.belongs)
   {
@@ -74,9 +99,8 @@ void Operand::read(vtkPolyData* input, std::vector<std::string>& newWarnings)
   mergeArrays(arraysIn(input->GetFieldData()), arrays_);
 }
 
-void Operand::readMesh(vtkPolyData* input, std::vector<std::string>& newWarnings)
+void OperandBlock::readMesh(vtkPolyData* input, std::vector<std::string>& newWarnings)
 {
-  requireData(input);
   const vtkTypeUInt64 print = fingerprint(input);
   if (!mesh_.repaired.mesh || print != fingerprint_)
   {
@@ -93,6 +117,59 @@ void Operand::readMesh(vtkPolyData* input, std::vector<std::string>& newWarnings
     append(node_->warnings(), newWarnings);
   }
   arrays_ = arraysOf(input, mesh_);
+}
+
+bool OperandBlock::isPatch() const
+{
+  return mesh_.repaired.mesh && !checkMesh(*mesh_.repaired.mesh).closed();
+}
+
+void Operand::read(const std::vector<Block>& blocks, std::vector<std::string>& newWarnings)
+{
+  requireData(!blocks.empty());
+  blocks_.resize(blocks.size());
+  nodes_.clear();
+  arrays_.clear();
+  std::vector<Block> patches;
+  for (std::size_t k = 0; k < blocks.size(); ++k)
+  {
+    OperandBlock& block = blocks_[k];
+    std::vector<std::string> warnings;
+    readBlock(blocks[k], block, warnings);
+    if (blocks.size() > 1 && block.isPatch())
+    {
+      patches.push_back(blocks[k]);
+      continue;
+    }
+    append(warnings, newWarnings);
+    this->take(block);
+  }
+  if (!patches.empty())
+  {
+    patches_.readMesh(vtkPolyData::SafeDownCast(joined(patches)), newWarnings);
+    this->take(patches_);
+  }
+}
+
+void Operand::readMesh(const std::vector<Block>& blocks, std::vector<std::string>& newWarnings)
+{
+  requireData(!blocks.empty());
+  nodes_.clear();
+  arrays_.clear();
+  const Block whole{ "", joined(blocks) };
+  patches_.readMesh(meshOf(whole), newWarnings);
+  this->take(patches_);
+}
+
+void Operand::take(const OperandBlock& block)
+{
+  nodes_.push_back(block.node());
+  mergeArrays(block.arrays(), arrays_);
+}
+
+NodePtr Operand::node()
+{
+  return union_.make(BooleanOperation::Union, nodes_);
 }
 
 } // namespace hybridtree

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Private: one input of an operator, read as a node.
+// Private: one input of an operator, read as nodes.
 #ifndef vtkHybridTreeOperand_h
 #define vtkHybridTreeOperand_h
 
+#include "core/nodes/BooleanNest.h"
 #include "core/nodes/Node.h"
+#include "vtkHybridTreeBlocks.h"
 #include "vtkHybridTreeConvert.h"
 #include "vtkHybridTreeLeaves.h"
 
@@ -15,9 +17,9 @@ class vtkPolyData;
 namespace hybridtree
 {
 
-/// What arrives over one input connection. Remembers what it has read, so that an input that
-/// arrives again as it was gives the same node with all that the node has computed.
-class Operand
+/// A polydata read as a node. Remembers what it has read, so that an input that arrives again as it
+/// was gives the same node with all that the node has computed.
+class OperandBlock
 {
 public:
   /// Reads the input: its tree where one belongs to it, else a mesh leaf. `newWarnings` gets what
@@ -33,6 +35,9 @@ public:
   /// Arrays of the mesh leaves below.
   const LeafArrays& arrays() const { return arrays_; }
 
+  /// It is a mesh, without a tree, that is not closed.
+  bool isPatch() const;
+
 private:
   NodePtr node_;
   LeafArrays arrays_;
@@ -40,6 +45,36 @@ private:
   vtkTypeUInt64 fingerprint_ = 0; ///< of the input that node_ was made from, unless it came live
   std::string text_;              ///< that node_ was parsed from
   ConvertedMesh mesh_;            ///< that node_ is a leaf over
+};
+
+/// What arrives over one input connection. Of composite data each block is a shape; but blocks that
+/// are open meshes are taken for patches of one mesh, as CAD files have them.
+class Operand
+{
+public:
+  /// Reads each block as OperandBlock does. \throws as it does, with the name of the block.
+  void read(const std::vector<Block>& blocks, std::vector<std::string>& newWarnings);
+
+  /// Takes all blocks together for one mesh, whatever trees they have.
+  void readMesh(const std::vector<Block>& blocks, std::vector<std::string>& newWarnings);
+
+  /// One node for each shape; not empty once read.
+  const std::vector<NodePtr>& nodes() const { return nodes_; }
+
+  /// All shapes united. The same object as long as the shapes are.
+  NodePtr node();
+
+  /// Arrays of the mesh leaves below.
+  const LeafArrays& arrays() const { return arrays_; }
+
+private:
+  void take(const OperandBlock& block);
+
+  std::vector<OperandBlock> blocks_;
+  OperandBlock patches_; ///< open meshes as one, or all
+  std::vector<NodePtr> nodes_;
+  LeafArrays arrays_;
+  BooleanNest union_;
 };
 
 } // namespace hybridtree

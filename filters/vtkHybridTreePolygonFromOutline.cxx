@@ -64,9 +64,9 @@ bool vtkHybridTreePolygonFromOutline::TakesNodes(int)
 }
 
 //------------------------------------------------------------------------------
-bool vtkHybridTreePolygonFromOutline::ReadOtherInputs(vtkInformationVector** inputs)
+bool vtkHybridTreePolygonFromOutline::ReadOtherInputs()
 {
-  this->Input = vtkPolyData::GetData(inputs[0]);
+  this->Input = this->GetWholeInput(0);
   if (!this->Input)
   {
     throw hybridtree::InvalidGeometry("There is no data. Check the filter it comes from.");

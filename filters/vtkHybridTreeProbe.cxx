@@ -138,6 +138,7 @@ int vtkHybridTreeProbe::FillInputPortInformation(int port, vtkInformation* info)
   if (port == 0)
   {
     info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+    hybridtree::takeComposite(info);
     info->Set(vtkHybridTreeAlgorithm::TAKES_TREE(), 1);
     return 1;
   }
@@ -197,7 +198,8 @@ int vtkHybridTreeProbe::RequestData(
   try
   {
     std::vector<std::string> warnings;
-    this->Internals->Tree.read(vtkPolyData::GetData(inputs[0]), warnings);
+    const auto blocks = hybridtree::blocksOf(vtkDataObject::GetData(inputs[0]));
+    this->Internals->Tree.read(blocks, warnings);
     for (const std::string& warning : warnings)
     {
       vtkWarningMacro(<< warning);
@@ -224,6 +226,6 @@ int vtkHybridTreeProbe::RequestData(
 void vtkHybridTreeProbe::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  const auto& tree = this->Internals->Tree.node();
-  os << indent << "Tree: " << (tree ? tree->kind() : "(none)") << "\n";
+  const auto& nodes = this->Internals->Tree.nodes();
+  os << indent << "Tree: " << (nodes.empty() ? "(none)" : nodes.front()->kind()) << "\n";
 }

@@ -38,9 +38,9 @@ bool vtkHybridTreeSubdivisionSkeleton::TakesNodes(int)
 }
 
 //------------------------------------------------------------------------------
-bool vtkHybridTreeSubdivisionSkeleton::ReadOtherInputs(vtkInformationVector** inputs)
+bool vtkHybridTreeSubdivisionSkeleton::ReadOtherInputs()
 {
-  this->Input = vtkPolyData::GetData(inputs[0]);
+  this->Input = this->GetWholeInput(0);
   if (!this->Input)
   {
     throw hybridtree::InvalidGeometry("There is no data. Check the filter it comes from.");

@@ -182,7 +182,7 @@ protected:
 #ifndef __VTK_WRAP__
   NodePtr MakeNode(const Operands& operands) override;
   bool TakesNodes(int port) override;
-  bool ReadOtherInputs(vtkInformationVector** inputs) override;
+  bool ReadOtherInputs() override;
   MeshPtr MakeMesh(const hybridtree::Node& node, const hybridtree::Progress& progress) override;
   void FillOtherOutputs(vtkInformationVector* outputs) override;
 #endif

@@ -66,9 +66,9 @@ bool vtkHybridTreeSurfaceOfRevolution::TakesNodes(int)
 }
 
 //------------------------------------------------------------------------------
-bool vtkHybridTreeSurfaceOfRevolution::ReadOtherInputs(vtkInformationVector** inputs)
+bool vtkHybridTreeSurfaceOfRevolution::ReadOtherInputs()
 {
-  this->Input = vtkPolyData::GetData(inputs[0]);
+  this->Input = this->GetWholeInput(0);
   const vtkMTimeType time = this->Input ? this->Input->GetMTime() : 0;
   return std::exchange(this->InputTime, time) != time;
 }

@@ -102,7 +102,7 @@ protected:
 #ifndef __VTK_WRAP__
   std::shared_ptr<const hybridtree::Skeleton> MakeSkeleton() override;
   bool TakesNodes(int port) override;
-  bool ReadOtherInputs(vtkInformationVector** inputs) override;
+  bool ReadOtherInputs() override;
 #endif
 
   int FillInputPortInformation(int port, vtkInformation* info) override;

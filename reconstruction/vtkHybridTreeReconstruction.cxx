@@ -15,6 +15,7 @@
 #include "vtkDataSet.h"
 #include "vtkDoubleArray.h"
 #include "vtkHybridTreeArray.h"
+#include "vtkHybridTreeBlocks.h"
 #include "vtkIdTypeArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -158,6 +159,7 @@ vtkHybridTreeReconstruction::~vtkHybridTreeReconstruction() = default;
 int vtkHybridTreeReconstruction::FillInputPortInformation(int, vtkInformation* info)
 {
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataSet");
+  hybridtree::takeComposite(info);
   return 1;
 }
 
@@ -193,6 +195,7 @@ int vtkHybridTreeReconstruction::RequestData(
 {
   vtkInformation* info = outputs->GetInformationObject(0);
   vtkPolyData* output = vtkPolyData::GetData(info);
+  const auto blocks = hybridtree::blocksOf(vtkDataObject::GetData(inputs[0]));
   if (info->Get(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER()) > 0)
   {
     output->Initialize();
@@ -200,7 +203,12 @@ int vtkHybridTreeReconstruction::RequestData(
   }
   try
   {
-    this->Reconstruct(vtkDataSet::GetData(inputs[0]), output);
+    const vtkSmartPointer<vtkDataSet> input = hybridtree::joined(blocks);
+    if (!input)
+    {
+      throw hybridtree::InvalidGeometry("There is no data. Check the filter it comes from.");
+    }
+    this->Reconstruct(input, output);
     return 1;
   }
   catch (const hybridtree::Cancelled&) // the user's wish, not an error

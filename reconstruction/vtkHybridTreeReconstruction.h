@@ -16,7 +16,7 @@
  * leaf with a tenth of its diagonal as radius of influence.
  *
  * Pieces: the first piece is everything, all other pieces are empty; the input is asked for as one
- * piece.
+ * piece. Blocks of composite data, and the parts that several processes have, are one point set.
  */
 
 #ifndef vtkHybridTreeReconstruction_h

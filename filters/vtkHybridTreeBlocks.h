@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Private: what arrives over one input connection, whole: the blocks of composite data, and what
+// several processes hold a part of each.
+#ifndef vtkHybridTreeBlocks_h
+#define vtkHybridTreeBlocks_h
+
+#include "HybridTreeFiltersModule.h" // for export macro
+#include "vtkDataSet.h"
+#include "vtkSmartPointer.h"
+
+#include <string>
+#include <vector>
+
+class vtkDataObject;
+class vtkInformation;
+
+namespace hybridtree
+{
+
+/// A data set of an input, and how to call it: nothing for an input that is no composite, else the
+/// name of the block, or its place when it has none.
+struct Block
+{
+  std::string name;
+  vtkSmartPointer<vtkDataSet> data;
+};
+
+/// The data sets that an input consists of: itself, or of composite data all blocks that hold
+/// points, in their order. Partitions and pieces of one data set are one block. Ghost cells are
+/// left out.
+///
+/// Under MPI every process must call it, in the same order of inputs: whatever is not the same in
+/// all of them is a part of the whole in each, so the parts are joined, and everybody gets the
+/// same. Inputs with a tree of their own are the same everywhere and are not compared.
+/// \param input may be null, which gives no blocks.
+HYBRIDTREEFILTERS_EXPORT std::vector<Block> blocksOf(vtkDataObject* input);
+
+/// All blocks as one data set, with those arrays that all of them have: the data set itself where
+/// there is one, else a polydata where all are, else an unstructured grid. Null without blocks.
+HYBRIDTREEFILTERS_EXPORT vtkSmartPointer<vtkDataSet> joined(const std::vector<Block>& blocks);
+
+/// Lets an input port take composite data as well, whole instead of block by block.
+HYBRIDTREEFILTERS_EXPORT void takeComposite(vtkInformation* port);
+
+} // namespace hybridtree
+
+#endif
