@@ -264,8 +264,6 @@ private:
   // in one box alone that child is asked, else the sum decides.
   void sliceMembership(PointBatch points, std::int8_t* side) const
   {
-    constexpr std::int32_t kNone = -1;
-    constexpr std::int32_t kSeveral = -2;
     std::vector<std::pair<Term, Box3>> near;
     hierarchy_.visit(boundsOf(points),
       [&](const Term& term) { near.emplace_back(term, term.node->influenceBounds()); });
@@ -306,62 +304,99 @@ private:
       });
   }
 
-  static PointBatch fewPoints(PointBatch points, std::size_t begin)
+  static constexpr std::int32_t kNone = -1;
+  static constexpr std::int32_t kSeveral = -2;
+
+  /// A term that may reach some points, and the largest its field may be there.
+  struct Reaching
   {
-    return points.slice(begin, std::min(kFewPoints, points.size - begin));
+    std::int32_t term;
+    Interval range;
+
+    double strength() const { return range.max > -range.min ? range.max : -range.min; }
+    bool isNowhereZero() const { return range.min > 0.0 || range.max < 0.0; }
+  };
+
+  /// Strongest first: these are the likeliest to reach all of the points.
+  std::vector<Reaching> reachingTerms(const Box3& box) const
+  {
+    std::vector<Reaching> reaching;
+    reaching.reserve(16);
+    hierarchy_.visit(box,
+      [&](const Term& term)
+      {
+        const Interval range = term.node->range(box);
+        if (!(range.min == 0.0 && range.max == 0.0))
+        {
+          const auto index = &term - hierarchy_.terms().data();
+          reaching.push_back({ static_cast<std::int32_t>(index), range });
+        }
+      });
+    std::sort(reaching.begin(), reaching.end(),
+      [](const Reaching& a, const Reaching& b) { return a.strength() > b.strength(); });
+    return reaching;
   }
 
-  /// What is 0 only where the field is. Its bounds tell that for many points at once.
-  /// \param boxes of every kFewPoints points.
-  static void valuesOrSigns(
-    const Node& node, PointBatch points, const std::vector<Box3>& boxes, double* value)
+  /// sole[k]: the term whose field alone is not 0 at the point.
+  /// \pre at most kFewPoints points
+  void findSoleTerms(PointBatch points, std::int32_t* sole) const
   {
-    for (std::size_t begin = 0; begin < points.size; begin += kFewPoints)
+    // Full lengths throughout, for the compiler; what is behind the points counts as reached.
+    std::array<double, kFewPoints> value;
+    std::array<std::int32_t, kFewPoints> reached{}; // how often
+    std::array<std::int32_t, kFewPoints> last;
+    last.fill(kNone);
+    for (const Reaching& reaching : this->reachingTerms(boundsOf(points)))
     {
-      const PointBatch few = Blend::fewPoints(points, begin);
-      const Interval range = node.range(boxes[begin / kFewPoints]);
-      if (range.min > 0.0 || range.max < 0.0 || (range.min == 0.0 && range.max == 0.0))
+      const Term& term = hierarchy_.terms()[static_cast<std::size_t>(reaching.term)];
+      value.fill(1.0);
+      if (!reaching.isNowhereZero())
       {
-        std::fill_n(value + begin, few.size, range.min > 0.0 ? 1.0 : range.max);
-        continue;
+        term.node->field(points, value.data());
       }
-      node.field(few, value + begin);
+      const std::int32_t often = std::min(term.count, 2);
+      std::int32_t least = 2;
+      for (std::size_t k = 0; k < kFewPoints; ++k)
+      {
+        reached[k] += value[k] != 0.0 ? often : 0;
+        last[k] = value[k] != 0.0 ? reaching.term : last[k];
+        least = std::min(least, reached[k]);
+      }
+      if (least == 2)
+      {
+        break; // whatever else reaches them
+      }
+    }
+    for (std::size_t k = 0; k < points.size; ++k)
+    {
+      sole[k] = reached[k] > 1 ? kSeveral : last[k];
     }
   }
 
   void sliceSourceLeaf(PointBatch points, std::int32_t* leaf) const
   {
-    std::vector<const Term*> near;
-    hierarchy_.visit(boundsOf(points), [&](const Term& term) { near.push_back(&term); });
-
-    constexpr std::int32_t kNone = -1;
-    constexpr std::int32_t kSeveral = -2;
     std::array<std::int32_t, kSlice> sole;
-    std::fill_n(sole.begin(), points.size, kNone);
-    ScratchArray value(points.size);
-    std::vector<Box3> boxes;
     for (std::size_t begin = 0; begin < points.size; begin += kFewPoints)
     {
-      boxes.push_back(boundsOf(Blend::fewPoints(points, begin)));
+      this->findSoleTerms(
+        points.slice(begin, std::min(kFewPoints, points.size - begin)), &sole[begin]);
     }
-    for (std::size_t n = 0; n < near.size(); ++n)
+    std::vector<std::int32_t> found;
+    for (std::size_t k = 0; k < points.size; ++k)
     {
-      Blend::valuesOrSigns(*near[n]->node, points, boxes, value.data());
-      for (std::size_t k = 0; k < points.size; ++k)
+      if (sole[k] >= 0 && (found.empty() || found.back() != sole[k]))
       {
-        if (value[k] != 0.0)
-        {
-          const bool first = sole[k] == kNone && near[n]->count == 1;
-          sole[k] = first ? static_cast<std::int32_t>(n) : kSeveral;
-        }
+        found.push_back(sole[k]);
       }
     }
+    std::sort(found.begin(), found.end());
+    found.erase(std::unique(found.begin(), found.end()), found.end());
     std::fill_n(leaf, points.size, -1);
-    for (std::size_t n = 0; n < near.size(); ++n)
+    for (const std::int32_t index : found)
     {
+      const Term& term = hierarchy_.terms()[static_cast<std::size_t>(index)];
       sourceLeafWhere(
-        *near[n]->node, points, [&](std::size_t k) { return sole[k] == static_cast<int>(n); },
-        near[n]->firstLeaf, leaf);
+        *term.node, points, [&](std::size_t k) { return sole[k] == index; }, term.firstLeaf, leaf);
     }
   }
 

@@ -92,9 +92,10 @@ void Potential::evaluateWithSlope(
 
 Interval Potential::range(Interval distance) const
 {
-  const double near = this->evaluate(distance.min);
-  const double far = this->evaluate(distance.max);
-  return this->isNegative() ? Interval{ near, far } : Interval{ far, near };
+  const double ends[2] = { distance.min, distance.max };
+  double field[2];
+  this->evaluate(ends, field, 2);
+  return this->isNegative() ? Interval{ field[0], field[1] } : Interval{ field[1], field[0] };
 }
 
 std::optional<double> Potential::surfaceRadius() const

@@ -13,7 +13,7 @@ namespace hybridtree
 namespace
 {
 
-constexpr std::size_t kGrain = 16384;
+constexpr std::size_t kGrain = 4096;
 
 class LoopFinder
 {
@@ -24,20 +24,35 @@ public:
   {
   }
 
-  std::vector<CreaseLoop> run(const Progress& progress)
+  /// Those around the first bent triangles of their cells within [begin, end).
+  std::vector<CreaseLoop> run(std::size_t begin, std::size_t end)
   {
-    std::size_t done = first_; // triangles before this have been looked at
-    for (const std::size_t t : this->bentTriangles(progress))
+    for (std::size_t t = begin; t < end;)
     {
-      if (t >= done)
+      if (!this->isBent(t))
       {
-        done = this->addLoopsAround(t, done);
+        ++t;
+        continue;
       }
+      const Run run = this->runAround(t);
+      if (run.begin >= begin || !this->isAnyBent(run.begin, begin))
+      {
+        this->addLoops(run);
+      }
+      t = run.end;
     }
     return std::move(loops_);
   }
 
 private:
+  /// All triangles in a cell.
+  struct Run
+  {
+    Index3 cell;
+    std::size_t begin;
+    std::size_t end;
+  };
+
   bool isBent(std::size_t t) const
   {
     const Triangle& c = mesh_.triangles[t];
@@ -47,28 +62,14 @@ private:
     return std::min({ a.dot(b), b.dot(d), d.dot(a) }) < leastCosine_;
   }
 
-  std::vector<std::size_t> bentTriangles(const Progress& progress) const
+  bool isAnyBent(std::size_t begin, std::size_t end) const
   {
-    const std::size_t count = mesh_.triangles.size() - first_;
-    std::vector<std::vector<std::size_t>> parts((count + kGrain - 1) / kGrain);
-    parallelFor(count, kGrain,
-      [&](std::size_t begin, std::size_t end)
-      {
-        progress.check();
-        for (std::size_t k = begin; k < end; ++k)
-        {
-          if (this->isBent(first_ + k))
-          {
-            parts[k / kGrain].push_back(first_ + k);
-          }
-        }
-      });
-    std::vector<std::size_t> bent;
-    for (const std::vector<std::size_t>& part : parts)
+    bool any = false;
+    for (std::size_t t = begin; t < end && !any; ++t)
     {
-      bent.insert(bent.end(), part.begin(), part.end());
+      any = this->isBent(t);
     }
-    return bent;
+    return any;
   }
 
   Index3 cellOfTriangle(std::size_t t) const
@@ -77,32 +78,34 @@ private:
     return cellOf(lattice_, (mesh_.points[c[0]] + mesh_.points[c[1]] + mesh_.points[c[2]]) / 3.0);
   }
 
-  /// Parts all triangles in the cell of t into polygons. \return the end of these triangles.
-  std::size_t addLoopsAround(std::size_t t, std::size_t least)
+  Run runAround(std::size_t t) const
   {
-    const Index3 cell = this->cellOfTriangle(t);
-    std::size_t begin = t;
-    while (begin > least && this->cellOfTriangle(begin - 1) == cell)
+    Run run{ this->cellOfTriangle(t), t, t + 1 };
+    while (run.begin > first_ && this->cellOfTriangle(run.begin - 1) == run.cell)
     {
-      --begin;
+      --run.begin;
     }
-    std::size_t end = t + 1;
-    while (end < mesh_.triangles.size() && this->cellOfTriangle(end) == cell)
+    while (run.end < mesh_.triangles.size() && this->cellOfTriangle(run.end) == run.cell)
     {
-      ++end;
+      ++run.end;
     }
-    this->joinTriangles(begin, end);
-    for (std::size_t k = begin; k < end;)
+    return run;
+  }
+
+  /// Parts the triangles into polygons.
+  void addLoops(const Run& run)
+  {
+    this->joinTriangles(run.begin, run.end);
+    for (std::size_t k = run.begin; k < run.end;)
     {
       std::size_t next = k + 1;
-      while (next < end && this->rootOf(next - begin) == this->rootOf(k - begin))
+      while (next < run.end && this->rootOf(next - run.begin) == this->rootOf(k - run.begin))
       {
         ++next;
       }
-      this->addLoop(cell, k, next);
+      this->addLoop(run.cell, k, next);
       k = next;
     }
-    return end;
   }
 
   void joinTriangles(std::size_t begin, std::size_t end)
@@ -140,13 +143,8 @@ private:
 
   void addLoop(const Index3& cell, std::size_t begin, std::size_t end)
   {
-    bool bent = false;
-    for (std::size_t t = begin; t < end && !bent; ++t)
-    {
-      bent = this->isBent(t);
-    }
     CreaseLoop loop{ cell, begin, end - begin, {} };
-    if (bent && this->findRim(loop) && LoopFinder::isDisc(loop))
+    if (this->isAnyBent(begin, end) && this->findRim(loop) && LoopFinder::isDisc(loop))
     {
       loops_.push_back(std::move(loop));
     }
@@ -197,7 +195,21 @@ private:
 std::vector<CreaseLoop> findCreaseLoops(const TriangleMesh& mesh, std::size_t first,
   const Lattice& lattice, double leastCosine, const Progress& progress)
 {
-  return LoopFinder(mesh, first, lattice, leastCosine).run(progress);
+  const std::size_t count = mesh.triangles.size() - first;
+  std::vector<std::vector<CreaseLoop>> parts((count + kGrain - 1) / kGrain);
+  parallelFor(count, kGrain,
+    [&](std::size_t begin, std::size_t end)
+    {
+      progress.check();
+      LoopFinder finder(mesh, first, lattice, leastCosine);
+      parts[begin / kGrain] = finder.run(first + begin, first + end);
+    });
+  std::vector<CreaseLoop> loops;
+  for (std::vector<CreaseLoop>& part : parts)
+  {
+    std::move(part.begin(), part.end(), std::back_inserter(loops));
+  }
+  return loops;
 }
 
 Index3 cellOf(const Lattice& lattice, const Vec3& point)

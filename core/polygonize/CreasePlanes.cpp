@@ -11,26 +11,6 @@ namespace
 constexpr double kEdgeRank = 0.004;  // least second and
 constexpr double kCornerRank = 0.03; // third eigenvalue, to the first
 
-/// The two planes whose normals are furthest apart, and the cosine between these.
-double leastCosine(const TouchingPlanes& planes, std::size_t& first, std::size_t& second)
-{
-  double least = 2.0;
-  for (std::size_t a = 0; a < planes.size(); ++a)
-  {
-    for (std::size_t b = a + 1; b < planes.size(); ++b)
-    {
-      const double cosine = planes[a].normal.dot(planes[b].normal);
-      if (cosine < least)
-      {
-        least = cosine;
-        first = a;
-        second = b;
-      }
-    }
-  }
-  return std::clamp(least, -1.0, 1.0);
-}
-
 } // namespace
 
 TouchingPlane TouchingPlane::of(const Vec3& at, double value, const Vec3& gradient)
@@ -70,19 +50,31 @@ Meeting meetingOf(const TouchingPlanes& planes, const Vec3& near, double reach)
   return { move.norm() <= reach, near + move, edge };
 }
 
-double widestAngle(const TouchingPlanes& planes)
+PlanePair widestPair(const TouchingPlanes& planes)
 {
-  std::size_t first = 0;
-  std::size_t second = 0;
-  return std::acos(leastCosine(planes, first, second));
+  PlanePair pair;
+  double least = 2.0;
+  for (std::size_t a = 0; a < planes.size(); ++a)
+  {
+    for (std::size_t b = a + 1; b < planes.size(); ++b)
+    {
+      const double cosine = planes[a].normal.dot(planes[b].normal);
+      if (cosine < least)
+      {
+        least = cosine;
+        pair.first = a;
+        pair.second = b;
+      }
+    }
+  }
+  pair.angle = std::acos(std::clamp(least, -1.0, 1.0));
+  return pair;
 }
 
 Vec3 middleNormal(const TouchingPlanes& planes, double leastAngle)
 {
-  std::size_t first = 0;
-  std::size_t second = 0;
-  leastCosine(planes, first, second);
-  std::vector<Vec3> faces{ planes[first].normal, planes[second].normal };
+  const PlanePair widest = widestPair(planes);
+  std::vector<Vec3> faces{ planes[widest.first].normal, planes[widest.second].normal };
   Vec3 sum = faces[0] + faces[1];
   for (const TouchingPlane& plane : planes)
   {

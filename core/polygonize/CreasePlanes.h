@@ -38,8 +38,20 @@ struct Meeting
 /// in an edge the one next to `near`. Not found where they meet in no edge, or beyond `reach`.
 Meeting meetingOf(const TouchingPlanes& planes, const Vec3& near, double reach);
 
-/// Largest angle between the normals of two planes. \pre at least two planes.
-double widestAngle(const TouchingPlanes& planes);
+/// Two of some planes, and the angle between their normals, radians.
+struct PlanePair
+{
+  std::size_t first = 0;
+  std::size_t second = 0;
+  double angle = 0.0;
+};
+
+/// Those whose normals are furthest apart. \pre at least two planes.
+PlanePair widestPair(const TouchingPlanes& planes);
+inline double widestAngle(const TouchingPlanes& planes)
+{
+  return widestPair(planes).angle;
+}
 
 /// Sum of the normals of the faces that meet, each once: normals within `leastAngle` are of one
 /// face. \pre at least two planes.

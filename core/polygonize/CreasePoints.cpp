@@ -21,6 +21,12 @@ constexpr int kSteps = 5;
 constexpr int kShifting = 2; // the step after which it moves along the crease no more,
 constexpr int kJudging = 3;  // and the one at which it must look like a crease
 
+// Between corners whose normals are no further apart than the first, steps no larger than the
+// second are no crease. Radians.
+constexpr double kRoundAngle = 0.7;
+constexpr double kRoundStep = 0.3;
+constexpr std::size_t kBetween = 3; // places on the way
+
 constexpr double kLeastShare = 0.5; // of the angle between the corners' normals that is left there
 constexpr double kEvenBend = 1.05;  // at most between the corners' normals of what is merely curved
 constexpr double kFarthest = 1.2;   // cells, from the middle of the polygon
@@ -67,6 +73,10 @@ public:
     for (int step = 0; step < kSteps; ++step)
     {
       this->ask(kWays[step]);
+      if (step == 0)
+      {
+        this->dropRound();
+      }
       for (Search& search : searches_)
       {
         search.alive = search.alive && this->narrow(search, step);
@@ -111,6 +121,55 @@ private:
           TouchingPlane::of(points.points()[next], values[next], gradients.points()[next]);
       }
     }
+  }
+
+  /// Drops polygons that are bent as a whole, where the field's normal turns by and by on the way
+  /// between the corners: cheap to see, and smooth surfaces have no others.
+  void dropRound()
+  {
+    std::vector<Search*> bent;
+    std::vector<PlanePair> widest;
+    for (Search& search : searches_)
+    {
+      const PlanePair pair = widestPair(search.planes);
+      if (pair.angle < kRoundAngle)
+      {
+        bent.push_back(&search);
+        widest.push_back(pair);
+      }
+    }
+    ScratchVectors points(kBetween * bent.size()), gradients(kBetween * bent.size());
+    ScratchArray values(kBetween * bent.size());
+    for (std::size_t k = 0; k < points.points().size; ++k)
+    {
+      const std::size_t n = k / kBetween;
+      const Vec3& from = bent[n]->polygon.corner(widest[n].first);
+      const Vec3& to = bent[n]->polygon.corner(widest[n].second);
+      const double way = static_cast<double>(k % kBetween + 1) / (kBetween + 1);
+      points.batch().set(k, from + way * (to - from));
+    }
+    field_.fieldAndGradient(points.points(), values.data(), gradients.batch());
+    for (std::size_t n = 0; n < bent.size(); ++n)
+    {
+      const TouchingPlanes& planes = bent[n]->planes;
+      bent[n]->alive = !PointFinder::turnsSlowly(planes[widest[n].first].normal,
+        gradients.points().slice(kBetween * n, kBetween), planes[widest[n].second].normal);
+    }
+  }
+
+  /// From one normal along gradients to another.
+  static bool turnsSlowly(const Vec3& from, PointBatch gradients, const Vec3& to)
+  {
+    const double leastCosine = std::cos(kRoundStep);
+    bool slowly = true;
+    Vec3 last = from;
+    for (std::size_t k = 0; k < gradients.size; ++k)
+    {
+      const Vec3 next = gradients[k] / -gradients[k].norm();
+      slowly = slowly && last.dot(next) > leastCosine; // not-a-number is not
+      last = next;
+    }
+    return slowly && last.dot(to) > leastCosine;
   }
 
   /// One step nearer to the crease; false where there is none.
