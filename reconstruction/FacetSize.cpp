@@ -164,7 +164,7 @@ void FacetSize::measureCells(const Progress& progress)
             }
           }
         }
-        lengths_[cell] = std::sqrt(length);
+        lengths_[cell] = static_cast<float>(std::sqrt(length));
         for (int facet = 0; facet < 4; ++facet)
         {
           facets_[cell][facet] = static_cast<float>(std::sqrt(size[facet]));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "reconstruction/RawVector.h"
 #include "reconstruction/Tetrahedralization.h"
 
 #include "core/base/Progress.h"
@@ -54,7 +55,7 @@ public:
 
   /// The same without regard to the spacing: the longest edge, in world units.
   double lengthOfFacet(std::int32_t cell, int facet) const;
-  double lengthOfCell(std::int32_t cell) const
+  float lengthOfCell(std::int32_t cell) const
   {
     return lengths_[cell];
   }
@@ -64,9 +65,9 @@ private:
   void measureCells(const Progress& progress);
 
   const Tetrahedralization& tetrahedra_;
-  std::vector<double> spacing_;              // per point; infinite at duplicates
-  std::vector<std::array<float, 4>> facets_; // per finite cell
-  std::vector<double> lengths_;
+  std::vector<double> spacing_;            // per point; infinite at duplicates
+  RawVector<std::array<float, 4>> facets_; // per finite cell
+  RawVector<float> lengths_;
 };
 
 } // namespace hybridtree

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "reconstruction/Regions.h"
 
-#include "reconstruction/JoinedParts.h"
-#include "reconstruction/ParallelSort.h"
-
 #include "core/base/Parallel.h"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <iterator>
 #include <limits>
 #include <numeric>
@@ -30,16 +29,21 @@ constexpr std::size_t kBreath = 65536;
 // whose sides are one by then, before they are sorted.
 constexpr std::array<float, 3> kStages{ 3.0f, 2.0f, 1.5f };
 
-// A facet between two cells, by size: widest first where sorted.
+// A facet between two cells.
 struct Passage
 {
   float size;
   float length;           // longest edge, in world units
   std::int32_t halfFacet; // 4 * cell + facet
   std::int32_t beyond;    // the other cell
-  bool operator<(const Passage& other) const
+
+  // Greater for wider ones; the same for those within a 256th of an octave: the exponent and eight
+  // bits of the fraction.
+  std::size_t width() const
   {
-    return size != other.size ? size > other.size : halfFacet < other.halfFacet;
+    std::uint32_t bits = 0;
+    std::memcpy(&bits, &size, sizeof bits);
+    return bits >> 15;
   }
 };
 
@@ -165,6 +169,43 @@ private:
   std::vector<double> depth_;
 };
 
+// All of them, widest first, those as wide as each other in the order of the parts. By counting.
+std::vector<Passage> widestFirst(const std::vector<std::vector<Passage>>& parts)
+{
+  std::size_t narrowest = std::numeric_limits<std::size_t>::max();
+  std::size_t widest = 0;
+  for (const std::vector<Passage>& part : parts)
+  {
+    for (const Passage& passage : part)
+    {
+      narrowest = std::min(narrowest, passage.width());
+      widest = std::max(widest, passage.width());
+    }
+  }
+  if (narrowest > widest)
+  {
+    return {};
+  }
+  std::vector<std::size_t> next(widest - narrowest + 2, 0);
+  for (const std::vector<Passage>& part : parts)
+  {
+    for (const Passage& passage : part)
+    {
+      ++next[widest - passage.width() + 1];
+    }
+  }
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  std::vector<Passage> sorted(next.back());
+  for (const std::vector<Passage>& part : parts)
+  {
+    for (const Passage& passage : part)
+    {
+      sorted[next[widest - passage.width()]++] = passage;
+    }
+  }
+  return sorted;
+}
+
 // Those of a stage that may join something, widest first.
 std::vector<Passage> stillApart(const std::vector<Passages>& parts, std::size_t stage,
   const Basins& basins, const Progress& progress)
@@ -181,9 +222,8 @@ std::vector<Passage> stillApart(const std::vector<Passages>& parts, std::size_t 
           [&](const Passage& p) { return !basins.areOne(p.halfFacet >> 2, p.beyond); });
       }
     });
-  std::vector<Passage> sorted = joined(apart);
-  parallelSort(sorted, progress);
-  return sorted;
+  progress.check();
+  return widestFirst(apart);
 }
 
 } // namespace
