@@ -53,7 +53,7 @@ void checkDetail(const LevelOfDetail& detail)
     {
       if (!std::isfinite(end))
       {
-        throw InvalidParameter("RefineCenter +- RefineLengths / 2", end, "a finite coordinate");
+        throw InvalidParameter("RefineOrigin + RefineLengths", end, "a finite coordinate");
       }
     }
   }

@@ -31,6 +31,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <limits>
 #include <sstream>
 
@@ -281,8 +282,8 @@ void vtkHybridTreeReconstruction::Reconstruct(vtkDataSet* input, vtkPolyData* ou
   }
   if (this->RefineRegion)
   {
-    const Vec3 half = 0.5 * Vec3(this->RefineLengths).cwiseAbs();
-    detail.region = Box3(Vec3(this->RefineCenter) - half, Vec3(this->RefineCenter) + half);
+    const Vec3 corner(this->RefineOrigin);
+    detail.region = Box3(corner, corner + Vec3(this->RefineLengths).cwiseAbs());
     detail.regionTolerance = this->RefineTolerance;
   }
   const bool keep = this->KeepState && this->LevelOfDetail != ALL_POINTS;
@@ -320,9 +321,9 @@ void vtkHybridTreeReconstruction::TellEstimate(
   this->EstimatedMemory = std::ldexp(estimate.bytes, -20);
   this->EstimatedTime = estimate.seconds;
   std::ostringstream text;
-  text.precision(2);
-  text << "Reconstructing " << points << " points, in about " << estimate.seconds << " s and "
-       << std::ceil(this->EstimatedMemory) << " MiB";
+  text << std::fixed << "Reconstructing " << points << " points, in about "
+       << std::setprecision(estimate.seconds < 10.0 ? 1 : 0) << std::max(0.1, estimate.seconds)
+       << " s and " << std::setprecision(0) << std::ceil(this->EstimatedMemory) << " MiB";
   this->SetProgressText(text.str().c_str());
   vtkDebugMacro(<< text.str());
 }
@@ -348,8 +349,8 @@ void vtkHybridTreeReconstruction::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "TargetVertices: " << this->TargetVertices << "\n";
   os << indent << "DetailLevel: " << this->DetailLevel << "\n";
   os << indent << "RefineRegion: " << this->RefineRegion << "\n";
-  os << indent << "RefineCenter: " << this->RefineCenter[0] << " " << this->RefineCenter[1] << " "
-     << this->RefineCenter[2] << "\n";
+  os << indent << "RefineOrigin: " << this->RefineOrigin[0] << " " << this->RefineOrigin[1] << " "
+     << this->RefineOrigin[2] << "\n";
   os << indent << "RefineLengths: " << this->RefineLengths[0] << " " << this->RefineLengths[1]
      << " " << this->RefineLengths[2] << "\n";
   os << indent << "RefineTolerance: " << this->RefineTolerance << "\n";

@@ -186,16 +186,16 @@ public:
 
   ///@{
   /**
-   * For all but ALL_POINTS: let the points in an axis-aligned box, RefineCenter +- RefineLengths /
-   * 2 in world coordinates, be no farther than RefineTolerance from the surface (world units, >= 0;
-   * 0, the default: all points in the box are used). The vertices come on top of those of the
-   * level. Default off.
+   * For all but ALL_POINTS: let the points in an axis-aligned box, from RefineOrigin to
+   * RefineOrigin + RefineLengths in world coordinates, be no farther than RefineTolerance from the
+   * surface (world units, >= 0; 0, the default: all points in the box are used). The vertices come
+   * on top of those of the level. Default off.
    */
   vtkSetMacro(RefineRegion, bool);
   vtkGetMacro(RefineRegion, bool);
   vtkBooleanMacro(RefineRegion, bool);
-  vtkSetVector3Macro(RefineCenter, double);
-  vtkGetVector3Macro(RefineCenter, double);
+  vtkSetVector3Macro(RefineOrigin, double);
+  vtkGetVector3Macro(RefineOrigin, double);
   vtkSetVector3Macro(RefineLengths, double);
   vtkGetVector3Macro(RefineLengths, double);
   vtkSetMacro(RefineTolerance, double);
@@ -250,7 +250,7 @@ protected:
   int TargetVertices = 30000;
   double DetailLevel = 0.25;
   bool RefineRegion = false;
-  double RefineCenter[3] = { 0.0, 0.0, 0.0 };
+  double RefineOrigin[3] = { 0.0, 0.0, 0.0 };
   double RefineLengths[3] = { 1.0, 1.0, 1.0 };
   double RefineTolerance = 0.0;
   bool KeepState = true;

@@ -288,6 +288,7 @@ TEST(ReconstructionFilter, NamesTheParameterThatIsWrong)
     filter->SetLevelOfDetailToTargetVertices();
     filter->SetTargetVertices(50);
     filter->RefineRegionOn();
+    filter->SetRefineOrigin(-0.5, -0.5, -0.5);
   };
   expectError(points, "RefineTolerance",
     [&](auto* filter)
@@ -295,11 +296,11 @@ TEST(ReconstructionFilter, NamesTheParameterThatIsWrong)
       refine(filter);
       filter->SetRefineTolerance(-1.0);
     });
-  expectError(points, "RefineCenter",
+  expectError(points, "RefineOrigin",
     [&](auto* filter)
     {
       refine(filter);
-      filter->SetRefineCenter(0.0, nan, 0.0);
+      filter->SetRefineOrigin(0.0, nan, 0.0);
     });
   // At once, and where the factor is known to be too small only at the end.
   for (const double factor : { 0.5, 1.0 })
@@ -341,7 +342,7 @@ TEST(ReconstructionFilter, KeepsItsStateFromLevelToLevel)
 
   // All the points of a box on top of them, elsewhere none.
   filter->RefineRegionOn();
-  filter->SetRefineCenter(1.0, 0.0, 0.0);
+  filter->SetRefineOrigin(0.5, -0.5, -0.5);
   filter->SetRefineLengths(1.0, 1.0, 1.0);
   const auto refined = idsAt(1500);
   EXPECT_GT(refined.size(), 1600u);
