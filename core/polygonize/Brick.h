@@ -24,9 +24,12 @@ struct Brick
     rank{}; ///< vertices before a word of `crossed`
   /// Contents of the bricks at offset (n & 1, n >> 1 & 1, n >> 2 & 1); [0] is this one.
   std::array<BrickTree::Content, 8> neighbours{};
+  bool ambiguous = false; ///< some of its cells have an ambiguous face (AmbiguousFaces.h)
   std::uint32_t vertexCount = 0;
+  std::uint32_t centreCount = 0; ///< vertices in the midst of loops
   std::uint32_t triangleCount = 0;
   std::uint32_t firstVertex = 0; ///< in the mesh
+  std::uint32_t firstCentre = 0;
   std::uint32_t firstTriangle = 0;
 
   /// Number within the brick of the vertex on a crossed edge.

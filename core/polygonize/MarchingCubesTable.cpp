@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/polygonize/MarchingCubesTable.h"
 
+#include <algorithm>
 #include <limits>
 #include <stdexcept>
 
@@ -9,8 +10,7 @@ namespace hybridtree
 namespace
 {
 
-using Loop = MarchingCubesTable::Loop;
-
+constexpr unsigned kMostEdges = 12;
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 /// Edge between two neighbouring corners.
@@ -37,32 +37,48 @@ std::array<unsigned, 4> faceCorners(unsigned axis, unsigned side)
                    : std::array<unsigned, 4>{ base, base | c, base | b | c, base | b };
 }
 
+/// Of four corners around a face two across a diagonal are inside and the others are not.
+bool isAmbiguous(unsigned signs, const std::array<unsigned, 4>& corner)
+{
+  const auto side = [&](unsigned k) { return signs >> corner[k] & 1u; };
+  return side(0) == side(2) && side(1) == side(3) && side(0) != side(1);
+}
+
+unsigned ambiguousFaces(unsigned signs)
+{
+  unsigned faces = 0;
+  for (unsigned face = 0; face < 6; ++face)
+  {
+    faces |= unsigned(isAmbiguous(signs, faceCorners(face / 2, face & 1u))) << face;
+  }
+  return faces;
+}
+
 /// next[e]: the edge that follows crossed edge e on its loop. Seen from outside the cell, a segment
 /// runs from where the border of the face enters the solid to where it leaves it again, so that the
-/// solid is to its left in one cell and, as the neighbour sees the face from behind, in both.
-std::array<unsigned, 12> joinEdges(unsigned signs)
+/// solid is to its left in one cell and, as the neighbour sees the face from behind, in both. Where
+/// inside corners are joined it runs to where the border has left the solid before.
+std::array<unsigned, 12> joinEdges(unsigned signs, unsigned joinedFaces)
 {
   std::array<unsigned, 12> next{};
   const auto inside = [signs](unsigned corner) { return (signs >> corner & 1u) != 0; };
-  for (unsigned axis = 0; axis < 3; ++axis)
+  for (unsigned face = 0; face < 6; ++face)
   {
-    for (unsigned side = 0; side < 2; ++side)
+    const auto corner = faceCorners(face / 2, face & 1u);
+    for (unsigned k = 0; k < 4; ++k)
     {
-      const auto corner = faceCorners(axis, side);
-      for (unsigned k = 0; k < 4; ++k)
+      if (inside(corner[k]) || !inside(corner[(k + 1) % 4]))
       {
-        if (inside(corner[k]) || !inside(corner[(k + 1) % 4]))
-        {
-          continue;
-        }
-        unsigned last = (k + 1) % 4;
-        while (inside(corner[(last + 1) % 4]))
-        {
-          last = (last + 1) % 4;
-        }
-        next[edgeBetween(corner[k], corner[(k + 1) % 4])] =
-          edgeBetween(corner[last], corner[(last + 1) % 4]);
+        continue;
       }
+      unsigned last = (k + 1) % 4;
+      while (inside(corner[(last + 1) % 4]))
+      {
+        last = (last + 1) % 4;
+      }
+      last = (joinedFaces >> face & 1u) != 0 ? (k + 3) % 4 : last;
+      next[edgeBetween(corner[k], corner[(k + 1) % 4])] =
+        edgeBetween(corner[last], corner[(last + 1) % 4]);
     }
   }
   return next;
@@ -84,15 +100,18 @@ double squaredDistance(unsigned edgeA, unsigned edgeB)
   return sum;
 }
 
-double diagonalCost(const Loop& loop, unsigned i, unsigned j)
+/// Crossed edges in cyclic order.
+using Polygon = std::vector<std::uint8_t>;
+
+double diagonalCost(const Polygon& edges, unsigned i, unsigned j)
 {
-  const bool isSide = j == i + 1 || (i == 0 && j + 1u == loop.size);
+  const bool isSide = j == i + 1 || (i == 0 && j + 1u == edges.size());
   if (isSide)
   {
     return 0.0;
   }
-  const unsigned a = loop.edges[i];
-  const unsigned b = loop.edges[j];
+  const unsigned a = edges[i];
+  const unsigned b = edges[j];
   const bool inFace = (MarchingCubesTable::facesOf(a) & MarchingCubesTable::facesOf(b)) != 0;
   return inFace ? kNever : squaredDistance(a, b);
 }
@@ -102,11 +121,12 @@ double diagonalCost(const Loop& loop, unsigned i, unsigned j)
 class LoopFiller
 {
 public:
-  explicit LoopFiller(Loop& loop) : loop_(loop) {}
+  explicit LoopFiller(const Polygon& edges) : edges_(edges) {}
 
-  double fill()
+  /// Positions in the polygon; empty where some diagonal would lie in a face.
+  Polygon fill()
   {
-    const unsigned n = loop_.size;
+    const auto n = static_cast<unsigned>(edges_.size());
     for (unsigned length = 2; length < n; ++length)
     {
       for (unsigned i = 0; i + length < n; ++i)
@@ -114,8 +134,11 @@ public:
         this->solve(i, i + length);
       }
     }
-    this->collect(0, n - 1);
-    return cost_[0][n - 1];
+    if (cost_[0][n - 1] < kNever)
+    {
+      this->collect(0, n - 1);
+    }
+    return std::move(triangles_);
   }
 
 private:
@@ -125,7 +148,7 @@ private:
     split_[i][j] = i + 1;
     for (unsigned k = i + 1; k < j; ++k)
     {
-      const double cost = cost_[i][k] + cost_[k][j] + diagonalCost(loop_, i, j);
+      const double cost = cost_[i][k] + cost_[k][j] + diagonalCost(edges_, i, j);
       if (cost < cost_[i][j])
       {
         cost_[i][j] = cost;
@@ -143,60 +166,81 @@ private:
     const unsigned k = split_[i][j];
     for (const unsigned corner : { i, k, j })
     {
-      loop_.triangles[count_++] = static_cast<std::uint8_t>(corner);
+      triangles_.push_back(static_cast<std::uint8_t>(corner));
     }
     this->collect(i, k);
     this->collect(k, j);
   }
 
-  Loop& loop_;
-  double cost_[7][7] = {};
-  unsigned split_[7][7] = {};
-  unsigned count_ = 0;
+  const Polygon& edges_;
+  Polygon triangles_;
+  double cost_[kMostEdges][kMostEdges] = {};
+  unsigned split_[kMostEdges][kMostEdges] = {};
 };
 
-Loop traceLoop(const std::array<unsigned, 12>& next, unsigned first)
+unsigned crossedEdges(unsigned signs)
 {
-  Loop loop;
-  unsigned edge = first;
-  do
+  unsigned mask = 0;
+  for (unsigned edge = 0; edge < 12; ++edge)
   {
-    loop.edges.at(loop.size++) = static_cast<std::uint8_t>(edge);
-    edge = next[edge];
-  } while (edge != first);
-  if (!(LoopFiller(loop).fill() < kNever))
-  {
-    throw std::logic_error("A loop of a marching cubes cell needs a diagonal in a face.");
+    const auto ends = MarchingCubesTable::corners(edge);
+    mask |= unsigned((signs >> ends[0] & 1u) != (signs >> ends[1] & 1u)) << edge;
   }
-  return loop;
+  return mask;
+}
+
+std::vector<Polygon> traceLoops(unsigned signs, unsigned joinedFaces)
+{
+  const auto next = joinEdges(signs, joinedFaces);
+  std::vector<Polygon> loops;
+  unsigned left = crossedEdges(signs);
+  for (unsigned first = 0; first < 12; ++first)
+  {
+    if ((left >> first & 1u) == 0)
+    {
+      continue;
+    }
+    loops.emplace_back();
+    unsigned edge = first;
+    do
+    {
+      loops.back().push_back(static_cast<std::uint8_t>(edge));
+      left &= ~(1u << edge);
+      edge = next[edge];
+    } while (edge != first);
+  }
+  return loops;
 }
 
 MarchingCubesTable::Case makeCase(unsigned signs)
 {
   MarchingCubesTable::Case result;
-  for (unsigned edge = 0; edge < 12; ++edge)
+  result.edgeMask = static_cast<std::uint16_t>(crossedEdges(signs));
+  result.ambiguous = static_cast<std::uint8_t>(ambiguousFaces(signs));
+  for (const Polygon& edges : traceLoops(signs, 0))
   {
-    const auto ends = MarchingCubesTable::corners(edge);
-    const bool crossed = (signs >> ends[0] & 1u) != (signs >> ends[1] & 1u);
-    result.edgeMask = static_cast<std::uint16_t>(result.edgeMask | unsigned(crossed) << edge);
-  }
-  const auto next = joinEdges(signs);
-  unsigned left = result.edgeMask;
-  for (unsigned edge = 0; edge < 12; ++edge)
-  {
-    if ((left >> edge & 1u) == 0)
+    const Polygon triangles = LoopFiller(edges).fill();
+    MarchingCubesTable::Loop& loop = result.loops.at(result.loopCount++);
+    if (triangles.empty() || edges.size() > loop.edges.size())
     {
-      continue;
+      throw std::logic_error("A loop of a marching cubes cell needs a diagonal in a face.");
     }
-    const Loop loop = traceLoop(next, edge);
-    for (unsigned k = 0; k < loop.size; ++k)
-    {
-      left &= ~(1u << loop.edges[k]);
-    }
-    result.loops[result.loopCount++] = loop;
-    result.triangleCount = static_cast<std::uint8_t>(result.triangleCount + loop.size - 2);
+    loop.size = static_cast<std::uint8_t>(edges.size());
+    std::copy(edges.begin(), edges.end(), loop.edges.begin());
+    std::copy(triangles.begin(), triangles.end(), loop.triangles.begin());
+    result.triangleCount = static_cast<std::uint8_t>(result.triangleCount + triangles.size() / 3);
   }
   return result;
+}
+
+std::vector<MarchingCubesTable::JoinedLoop> makeJoined(unsigned signs, unsigned faces)
+{
+  std::vector<MarchingCubesTable::JoinedLoop> loops;
+  for (const Polygon& edges : traceLoops(signs, faces))
+  {
+    loops.push_back({ edges, LoopFiller(edges).fill() });
+  }
+  return loops;
 }
 
 } // namespace
@@ -221,6 +265,11 @@ MarchingCubesTable::MarchingCubesTable()
   for (unsigned signs = 0; signs < 256; ++signs)
   {
     cases_[signs] = makeCase(signs);
+    const unsigned ambiguous = cases_[signs].ambiguous;
+    for (unsigned faces = ambiguous; faces != 0; faces = (faces - 1) & ambiguous)
+    {
+      joined_[signs << 6 | faces] = makeJoined(signs, faces);
+    }
   }
 }
 

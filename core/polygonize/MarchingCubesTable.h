@@ -3,6 +3,8 @@
 
 #include <array>
 #include <cstdint>
+#include <unordered_map>
+#include <vector>
 
 namespace hybridtree
 {
@@ -15,10 +17,11 @@ namespace hybridtree
 /// (e >> 1 & 1) on axis a + 2 (axes modulo 3).
 ///
 /// On every face of the cell the crossed edges are joined by segments that part the inside corners
-/// from the rest; inside corners across the diagonal of a face are parted from one another. Both
-/// cells at a face see the same segments. These close to loops, and each loop is filled by
-/// triangles whose diagonals never lie in a face of the cell: so no edge can be made twice by
-/// different cells.
+/// from the rest. A face with two inside corners across its diagonal is ambiguous: they are parted
+/// from one another, or joined and the other two parted, which is for the field to tell
+/// (AmbiguousFaces.h), once for both cells. So both see the same segments. These close to loops,
+/// and each loop is filled by triangles whose diagonals never lie in a face of the cell: so no edge
+/// can be made twice by different cells.
 class MarchingCubesTable
 {
 public:
@@ -36,14 +39,35 @@ public:
   {
     std::uint8_t loopCount = 0;
     std::uint8_t triangleCount = 0;
-    std::uint16_t edgeMask = 0; ///< bit e: edge e is crossed
-    std::array<Loop, 4> loops{};
+    std::uint16_t edgeMask = 0;  ///< bit e: edge e is crossed
+    std::uint8_t ambiguous = 0;  ///< bit 2 a + s: the face at side s of axis a is
+    std::array<Loop, 4> loops{}; ///< with the inside corners of ambiguous faces parted
+  };
+
+  /// As Loop, of 3 to 12 edges. Without triangles where there are none without a diagonal in a
+  /// face: those have to meet in a point in the midst of the loop.
+  struct JoinedLoop
+  {
+    std::vector<std::uint8_t> edges;
+    std::vector<std::uint8_t> triangles;
+
+    std::size_t triangleCount() const
+    {
+      return triangles.empty() ? edges.size() : triangles.size() / 3;
+    }
   };
 
   /// Made once, at the first call.
   static const MarchingCubesTable& instance();
 
   const Case& operator[](unsigned signs) const { return cases_[signs]; }
+
+  /// The loops of a case where the inside corners of some of its ambiguous faces are joined.
+  /// \param faces bits as Case::ambiguous. \pre not 0, and only ambiguous ones.
+  const std::vector<JoinedLoop>& joined(unsigned signs, unsigned faces) const
+  {
+    return joined_.at(signs << 6 | faces);
+  }
 
   /// The two corners of an edge, lower first.
   static constexpr std::array<std::uint8_t, 2> corners(unsigned edge)
@@ -60,6 +84,7 @@ private:
   MarchingCubesTable();
 
   std::array<Case, 256> cases_;
+  std::unordered_map<unsigned, std::vector<JoinedLoop>> joined_;
 };
 
 } // namespace hybridtree

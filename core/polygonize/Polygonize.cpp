@@ -5,8 +5,11 @@
 #include "core/base/Parallel.h"
 #include "core/base/Scratch.h"
 #include "core/polygonize/Brick.h"
+#include "core/polygonize/BrickFaces.h"
 #include "core/polygonize/BrickTree.h"
+#include "core/polygonize/CrossedCells.h"
 #include "core/polygonize/EdgeRoots.h"
+#include "core/polygonize/LoopCentre.h"
 #include "core/polygonize/MarchingCubesTable.h"
 
 #include <algorithm>
@@ -41,7 +44,8 @@ class Polygonizer
 public:
   Polygonizer(const FieldSource& field, const Lattice& lattice, const MemoryBudget& budget,
     const Progress& progress)
-    : lattice_(lattice)
+    : field_(field)
+    , lattice_(lattice)
     , budget_(budget)
     , progress_(progress)
     , tree_(field, lattice_, budget, ProgressPart(progress, 0.0, 0.2))
@@ -53,6 +57,7 @@ public:
     this->sampleBricks(0);
     this->openMissedBricks();
     this->connectBricks();
+    this->decideFaces();
     this->allocateMesh();
     this->makeVertices();
     this->makeTriangles();
@@ -210,28 +215,23 @@ private:
         signs.findCrossedEdges(brick.crossed);
         brick.countVertices();
         brick.triangleCount = 0;
-        forEachCell(signs,
-          [&](const MarchingCubesTable::Case& cell, unsigned, unsigned, unsigned)
-          { brick.triangleCount += cell.triangleCount; });
+        forEachCrossedCell(signs,
+          [&](const CrossedCell& cell)
+          {
+            brick.triangleCount += cell.way.triangleCount;
+            brick.ambiguous = brick.ambiguous || cell.way.ambiguous != 0;
+          });
       });
   }
 
-  template <class Body>
-  static void forEachCell(const CornerSigns& signs, Body&& body)
+  void decideFaces()
   {
-    const MarchingCubesTable& table = MarchingCubesTable::instance();
-    for (unsigned z = 0; z < kBrickSide; ++z)
+    faces_.decide(bricks_, tree_, lattice_, progress_);
+    for (Brick& brick : bricks_)
     {
-      for (unsigned y = 0; y < kBrickSide; ++y)
+      if (brick.ambiguous)
       {
-        for (unsigned x = 0; x < kBrickSide && !signs.uniformRow(y, z); ++x)
-        {
-          const MarchingCubesTable::Case& cell = table[signs.cellCase(x, y, z)];
-          if (cell.loopCount > 0)
-          {
-            body(cell, x, y, z);
-          }
-        }
+        faces_.count(brick, gatherSigns(brick.neighbours, bricks_));
       }
     }
   }
@@ -246,6 +246,11 @@ private:
       brick.firstTriangle = static_cast<std::uint32_t>(triangles);
       vertices += brick.vertexCount;
       triangles += brick.triangleCount;
+    }
+    for (Brick& brick : bricks_)
+    {
+      brick.firstCentre = static_cast<std::uint32_t>(vertices);
+      vertices += brick.centreCount;
     }
     const double bytes = static_cast<double>(vertices) * 2 * sizeof(Vec3) +
       static_cast<double>(triangles) * sizeof(Triangle) +
@@ -332,12 +337,21 @@ private:
           return;
         }
         Triangle* triangle = &mesh_.triangles[brick.firstTriangle];
-        forEachCell(gatherSigns(brick.neighbours, bricks_),
-          [&](const MarchingCubesTable::Case& cell, unsigned x, unsigned y, unsigned z)
+        std::uint32_t centre = brick.firstCentre;
+        forEachCrossedCell(gatherSigns(brick.neighbours, bricks_),
+          [&](const CrossedCell& cell)
           {
-            for (unsigned n = 0; n < cell.loopCount; ++n)
+            if (const BrickFaces::Loops* loops = faces_.loopsOf(brick, cell))
             {
-              triangle = this->fillLoop(brick, cell.loops[n], { x, y, z }, triangle);
+              for (const MarchingCubesTable::JoinedLoop& loop : *loops)
+              {
+                triangle = this->fillJoined(brick, loop, cell.at, centre, triangle);
+              }
+              return;
+            }
+            for (unsigned n = 0; n < cell.way.loopCount; ++n)
+            {
+              triangle = this->fillLoop(brick, cell.way.loops[n], cell.at, triangle);
             }
           });
       });
@@ -359,6 +373,33 @@ private:
     {
       const std::uint8_t* corner = &loop.triangles[3 * n];
       *triangle++ = { vertices[corner[0]], vertices[corner[1]], vertices[corner[2]] };
+    }
+    return triangle;
+  }
+
+  Triangle* fillJoined(const Brick& brick, const MarchingCubesTable::JoinedLoop& loop,
+    const std::array<unsigned, 3>& cell, std::uint32_t& centre, Triangle* triangle)
+  {
+    std::vector<std::int32_t> vertices;
+    for (const std::uint8_t edge : loop.edges)
+    {
+      vertices.push_back(this->vertexOn(brick, edge, cell));
+    }
+    for (std::size_t n = 0; n < loop.triangles.size(); n += 3)
+    {
+      const std::uint8_t* corner = &loop.triangles[n];
+      *triangle++ = { vertices[corner[0]], vertices[corner[1]], vertices[corner[2]] };
+    }
+    if (loop.triangles.empty())
+    {
+      const auto middle = static_cast<std::int32_t>(centre++);
+      const LoopCentre place = centreOf(mesh_, vertices, field_, lattice_.cellSize);
+      mesh_.points[middle] = place.point;
+      mesh_.normals[middle] = place.normal;
+      for (std::size_t n = 0; n < vertices.size(); ++n)
+      {
+        *triangle++ = { vertices[n], vertices[(n + 1) % vertices.size()], middle };
+      }
     }
     return triangle;
   }
@@ -427,12 +468,14 @@ private:
     }
   }
 
+  const FieldSource& field_;
   const Lattice lattice_;
   const MemoryBudget budget_;
   const Progress& progress_;
   BrickTree tree_;
   std::vector<Brick> bricks_;
   std::vector<float> values_; ///< f - T at the points of each brick, only to start searches from
+  BrickFaces faces_;
   TriangleMesh mesh_;
 };
 

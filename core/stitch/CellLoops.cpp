@@ -10,7 +10,7 @@ namespace hybridtree
 namespace
 {
 
-// A diagonal in a face is worse than any shape, but better than no triangulation.
+// A diagonal in a face is worse than any shape.
 constexpr double kInFace = 1e3;
 
 double badness(const Vec3& a, const Vec3& b, const Vec3& c)
@@ -36,7 +36,7 @@ public:
   {
   }
 
-  void fill()
+  bool fill()
   {
     const std::size_t n = loop_.size();
     for (std::size_t length = 2; length < n; ++length)
@@ -46,7 +46,12 @@ public:
         this->solve(i, i + length);
       }
     }
-    this->collect(0, n - 1);
+    const bool filled = cost_[n - 1] < kInFace;
+    if (filled)
+    {
+      this->collect(0, n - 1);
+    }
+    return filled;
   }
 
 private:
@@ -133,12 +138,9 @@ bool joinSegments(const std::vector<CellSegment>& segments, std::vector<CellLoop
   return good;
 }
 
-void fillLoop(const CellLoop& loop, std::vector<Triangle>& triangles)
+bool fillLoop(const CellLoop& loop, std::vector<Triangle>& triangles)
 {
-  if (loop.size() >= 3)
-  {
-    LoopFiller(loop, triangles).fill();
-  }
+  return loop.size() < 3 || LoopFiller(loop, triangles).fill();
 }
 
 } // namespace hybridtree

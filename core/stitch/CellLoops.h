@@ -31,8 +31,9 @@ using CellLoop = std::vector<CellVertex>;
 /// loops there are are still given.
 bool joinSegments(const std::vector<CellSegment>& segments, std::vector<CellLoop>& loops);
 
-/// Triangles over a loop, appended: n - 2 of good shape, with no diagonal in a face of the cell
-/// where that can be, since the neighbouring cell could have the same. None for a loop of two.
-void fillLoop(const CellLoop& loop, std::vector<Triangle>& triangles);
+/// Triangles over a loop, appended: n - 2 of good shape, with no diagonal in a face of the cell,
+/// since the neighbouring cell could have the same. None for a loop of two.
+/// \return false where there is always such a diagonal; then nothing is appended.
+bool fillLoop(const CellLoop& loop, std::vector<Triangle>& triangles);
 
 } // namespace hybridtree

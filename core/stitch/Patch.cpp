@@ -6,6 +6,7 @@
 #include "core/stitch/BorderSigns.h"
 #include "core/stitch/CellLoops.h"
 #include "core/stitch/PatchBricks.h"
+#include "core/stitch/PatchFaces.h"
 #include "core/stitch/PatchVertices.h"
 
 #include <algorithm>
@@ -67,6 +68,7 @@ public:
   Patch run()
   {
     this->noteMisfits(alignBorderSigns(bricks_, crossings_));
+    PatchFaces(bricks_).decide(lattice_, progress_);
     makePatchVertices(bricks_, lattice_, border_.vertexCount, patch_, progress_);
     this->makeTriangles();
     return std::move(patch_);
@@ -154,19 +156,17 @@ private:
 
   void fillCells(const PatchBrick& brick, BrickWork& work)
   {
-    for (int z = 0; z < kBrickSide; ++z)
-    {
-      for (std::uint64_t word = brick.cells[z]; word != 0; word &= word - 1)
+    brick.forEachCell(
+      [&](const std::array<int, 3>& cell)
       {
-        const int n = PatchBrick::lowestBit(word);
-        const std::array<int, 3> cell{ n % kBrickSide, n / kBrickSide, z };
-        const unsigned signs = this->caseOf(brick, cell);
-        const bool hasLine = (brick.busy[z] & word & (~word + 1)) != 0;
+        const unsigned signs = bricks_.caseOf(brick, cell);
+        const bool hasLine = PatchBrick::has(brick.busy, cell[0], cell[1], cell[2]);
         if ((signs == 0 || signs == 0xff) && !hasLine)
         {
-          continue; // no surface
+          return; // no surface
         }
-        if (this->isInner(brick, cell))
+        const bool joins = PatchFaces(bricks_).anyJoined(brick, cell, signs);
+        if (!joins && this->isInner(brick, cell))
         {
           this->fillInnerCell(brick, cell, signs, work);
         }
@@ -174,8 +174,7 @@ private:
         {
           this->fillBorderCell(brick, cell, signs, work);
         }
-      }
-    }
+      });
   }
 
   static Index3 indexOf(const PatchBrick& brick, const std::array<int, 3>& cell)
@@ -216,23 +215,6 @@ private:
       }
     }
     return true;
-  }
-
-  unsigned caseOf(const PatchBrick& brick, const std::array<int, 3>& cell)
-  {
-    if (std::max({ cell[0], cell[1], cell[2] }) < kBrickSide - 1)
-    {
-      return PatchBrick::corners(brick.inside, cell[0], cell[1], cell[2]);
-    }
-    unsigned signs = 0;
-    for (unsigned corner = 0; corner < 8; ++corner)
-    {
-      signs |= unsigned(bricks_.isInside(brick, cell[0] + static_cast<int>(corner & 1u),
-                 cell[1] + static_cast<int>(corner >> 1 & 1u),
-                 cell[2] + static_cast<int>(corner >> 2 & 1u)))
-        << corner;
-    }
-    return signs;
   }
 
   std::int32_t vertexOn(const PatchBrick& brick, const std::array<int, 3>& cell, unsigned edge)
@@ -288,8 +270,7 @@ private:
     {
       std::array<int, 3> beyond = cell;
       beyond[face / 2] += (face & 1u) != 0 ? 1 : -1;
-      const auto place = bricks_.locate(brick, beyond[0], beyond[1], beyond[2]);
-      if (place.brick && PatchBrick::has(place.brick->cells, place.x, place.y, place.z))
+      if (bricks_.isMarked(brick, beyond))
       {
         good = this->addContour(brick, cell, index, face, signs, segments) && good;
       }
@@ -346,7 +327,8 @@ private:
   }
 
   /// The contour of a face between two marked cells: from each vertex at which the way around the
-  /// face enters the solid to the next, where it leaves it.
+  /// face enters the solid to the next, where it leaves it; where the inside corners are joined, to
+  /// the one before.
   bool addContour(const PatchBrick& brick, const std::array<int, 3>& cell, const Index3& index,
     unsigned face, unsigned signs, std::vector<CellSegment>& segments)
   {
@@ -362,9 +344,10 @@ private:
       return false;
     }
     const std::size_t n = way.size();
+    const std::size_t step = n == 4 && PatchFaces(bricks_).isJoined(brick, cell, face) ? n - 1 : 1;
     for (std::size_t k = first ? 1 : 0; k < n; k += 2)
     {
-      segments.push_back({ way[k], way[(k + 1) % n] });
+      segments.push_back({ way[k], way[(k + step) % n] });
     }
     return true;
   }
@@ -409,9 +392,8 @@ private:
 
   void fill(const CellLoop& loop, BrickWork& work) const
   {
-    if (loop.size() <= kLongLoop)
+    if (loop.size() <= kLongLoop && fillLoop(loop, work.triangles))
     {
-      fillLoop(loop, work.triangles);
       return;
     }
     Vec3 center = Vec3::Zero();

@@ -239,4 +239,27 @@ bool PatchBricks::isInside(const PatchBrick& brick, int x, int y, int z)
   return place.brick && PatchBrick::has(place.brick->inside, place.x, place.y, place.z);
 }
 
+bool PatchBricks::isMarked(const PatchBrick& brick, const std::array<int, 3>& cell)
+{
+  const Place place = this->locate(brick, cell[0], cell[1], cell[2]);
+  return place.brick && PatchBrick::has(place.brick->cells, place.x, place.y, place.z);
+}
+
+unsigned PatchBricks::caseOf(const PatchBrick& brick, const std::array<int, 3>& cell)
+{
+  if (std::max({ cell[0], cell[1], cell[2] }) < kBrickSide - 1)
+  {
+    return PatchBrick::corners(brick.inside, cell[0], cell[1], cell[2]);
+  }
+  unsigned signs = 0;
+  for (unsigned corner = 0; corner < 8; ++corner)
+  {
+    signs |=
+      unsigned(this->isInside(brick, cell[0] + static_cast<int>(corner & 1u),
+        cell[1] + static_cast<int>(corner >> 1 & 1u), cell[2] + static_cast<int>(corner >> 2 & 1u)))
+      << corner;
+  }
+  return signs;
+}
+
 } // namespace hybridtree

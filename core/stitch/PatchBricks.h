@@ -19,6 +19,8 @@ struct PatchBrick
   BrickBits busy{};   ///< cells that the line from outside touches
   std::array<BrickBits, 3> edges{};   ///< [axis]: from a point, an edge of a marked cell
   std::array<BrickBits, 3> inner{};   ///< of these, those all of whose four cells are marked
+  std::array<BrickBits, 3> joined{};  ///< [axis]: the ambiguous face from a point, across the axis,
+                                      ///< has its inside corners joined (AmbiguousFaces.h)
   std::array<BrickBits, 3> crossed{}; ///< of the inner ones, those that have a vertex
   std::array<std::int32_t, 27>
     near{};                  ///< number of the brick at offset (n % 3, n / 3 % 3, n / 9) - 1
@@ -46,6 +48,19 @@ struct PatchBrick
   }
   /// Number of the lowest bit of a word that is not 0.
   static int lowestBit(std::uint64_t word);
+  /// Calls body(cell), with its place in the brick, for the marked cells.
+  template <class Body>
+  void forEachCell(Body&& body) const
+  {
+    for (int z = 0; z < kBrickSide; ++z)
+    {
+      for (std::uint64_t word = cells[z]; word != 0; word &= word - 1)
+      {
+        const int n = lowestBit(word);
+        body(std::array<int, 3>{ n % kBrickSide, n / kBrickSide, z });
+      }
+    }
+  }
   /// Number of the vertex on a crossed edge.
   std::int32_t vertexOn(unsigned axis, int x, int y, int z) const;
   void countVertices();
@@ -73,6 +88,11 @@ public:
   Place locate(const Index3& index);
   /// The side of a lattice point; outside where it is no corner of a marked cell.
   bool isInside(const PatchBrick& brick, int x, int y, int z);
+  ///@{
+  /// \param cell as x, y, z of locate().
+  bool isMarked(const PatchBrick& brick, const std::array<int, 3>& cell);
+  unsigned caseOf(const PatchBrick& brick, const std::array<int, 3>& cell); ///< of marching cubes
+  ///@}
 
 private:
   void addBricks(const CellSet& cells);
