@@ -29,15 +29,17 @@ struct PolygonizeOptions
 ///
 /// The result is a closed, outward oriented 2-manifold, at edges and at points, for every field,
 /// even a discontinuous one, because each lattice point has one side and cells agree on their
-/// common face: on a face with two inside corners across its diagonal these stay apart. A point is
-/// inside when f >= T; not-a-number is outside. Outside of `bounds` (rounded outwards to whole
-/// cells) the field counts as 0, so a solid that sticks out is closed there, flat.
+/// common face: on a face with two inside corners across its diagonal the field is asked whether
+/// these are joined, once for both (AmbiguousFaces.h). A point is inside when f >= T; not-a-number
+/// is outside. Outside of `bounds` (rounded outwards to whole cells) the field counts as 0, so a
+/// solid that sticks out is closed there, flat.
 ///
 /// Every vertex lies on a lattice edge, at least 1e-4 cells from its ends, and where f is
 /// continuous within 1e-4 cells of the surface along it (1e-6 where it is smooth and crosses the
-/// edge steeply); a vertex inside a cell exists only where a cell needs one to stay manifold.
-/// Normals are -grad f / |grad f|, from the triangles where the gradient vanishes.
-/// Vertices and triangles are the same, byte by byte, for any number of threads.
+/// edge steeply); a vertex inside a cell exists only where a cell needs one to stay manifold, and
+/// is on the surface if there is one within half a cell. Normals are -grad f / |grad f|, from the
+/// triangles where the gradient vanishes. Vertices and triangles are the same, byte by byte, for
+/// any number of threads.
 ///
 /// \param bounds of the region to search; empty gives an empty mesh.
 /// \throws InvalidParameter for a bad cell size or infinite bounds; TooLarge when the work would
