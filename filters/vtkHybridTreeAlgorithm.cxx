@@ -91,11 +91,13 @@ int vtkHybridTreeAlgorithm::ModifyRequest(vtkInformation*, int when)
 
 //------------------------------------------------------------------------------
 int vtkHybridTreeAlgorithm::RequestInformation(
-  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
+  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
   {
-    outputs->GetInformationObject(port)->Set(vtkAlgorithm::CAN_HANDLE_PIECE_REQUEST(), 1);
+    vtkInformation* output = outputs->GetInformationObject(port);
+    output->Set(vtkAlgorithm::CAN_HANDLE_PIECE_REQUEST(), 1);
+    hybridtree::mergeTimes(this->GetNumberOfInputPorts(), inputs, output);
   }
   return 1;
 }

@@ -5,12 +5,14 @@
 #include "vtkAlgorithmOutput.h"
 #include "vtkHybridTreeAlgorithm.h"
 #include "vtkInformation.h"
+#include "vtkInformationDoubleVectorKey.h"
 #include "vtkInformationIntegerKey.h"
 #include "vtkInformationIntegerRequestKey.h"
 #include "vtkInformationVector.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <utility>
+#include <vector>
 
 namespace hybridtree
 {
@@ -195,6 +197,37 @@ Formulation requested(vtkInformation* output)
 bool isFirstPiece(vtkInformation* output)
 {
   return output->Get(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER()) <= 0;
+}
+
+void mergeTimes(int ports, vtkInformationVector** inputs, vtkInformation* output)
+{
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  std::set<double> steps;
+  std::set<double> ends;
+  for (int port = 0; port < ports; ++port)
+  {
+    for (int k = 0; k < inputs[port]->GetNumberOfInformationObjects(); ++k)
+    {
+      vtkInformation* input = inputs[port]->GetInformationObject(k);
+      const double* step = input->Get(Pipeline::TIME_STEPS());
+      steps.insert(step, step + input->Length(Pipeline::TIME_STEPS()));
+      const double* end = input->Get(Pipeline::TIME_RANGE());
+      ends.insert(end, end + input->Length(Pipeline::TIME_RANGE()));
+    }
+  }
+  output->Remove(Pipeline::TIME_STEPS());
+  output->Remove(Pipeline::TIME_RANGE());
+  if (!steps.empty())
+  {
+    const std::vector<double> all(steps.begin(), steps.end());
+    output->Set(Pipeline::TIME_STEPS(), all.data(), static_cast<int>(all.size()));
+    ends.insert({ all.front(), all.back() });
+  }
+  if (!ends.empty())
+  {
+    const double range[2] = { *ends.begin(), *ends.rbegin() };
+    output->Set(Pipeline::TIME_RANGE(), range, 2);
+  }
 }
 
 } // namespace hybridtree

@@ -60,6 +60,10 @@ Formulation requested(vtkInformation* output);
 /// True unless another piece than the first is asked of this output: the first has everything.
 bool isFirstPiece(vtkInformation* output);
 
+/// Gives an output the time steps and the time range of all inputs together; by default it has
+/// those of the first input only, and follows no other through time.
+void mergeTimes(int ports, vtkInformationVector** inputs, vtkInformation* output);
+
 } // namespace hybridtree
 
 #endif

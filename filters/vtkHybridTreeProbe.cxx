@@ -167,18 +167,16 @@ int vtkHybridTreeProbe::RequestDataObject(
 int vtkHybridTreeProbe::RequestInformation(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  // By default an output takes extent, spacing and times from port 0; here they are those of
-  // Points.
+  // By default an output takes extent and spacing from port 0; here they are those of Points.
   vtkInformation* points = inputs[1]->GetInformationObject(0);
   vtkInformation* output = outputs->GetInformationObject(0);
   output->CopyEntry(points, vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT());
   output->CopyEntry(points, vtkDataObject::SPACING());
   output->CopyEntry(points, vtkDataObject::ORIGIN());
   output->CopyEntry(points, vtkDataObject::DIRECTION());
-  output->CopyEntry(points, vtkStreamingDemandDrivenPipeline::TIME_STEPS());
-  output->CopyEntry(points, vtkStreamingDemandDrivenPipeline::TIME_RANGE());
   output->CopyEntry(points, vtkAlgorithm::CAN_HANDLE_PIECE_REQUEST());
   output->CopyEntry(points, vtkAlgorithm::CAN_PRODUCE_SUB_EXTENT());
+  hybridtree::mergeTimes(this->GetNumberOfInputPorts(), inputs, output);
   return 1;
 }
 
