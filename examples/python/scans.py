@@ -2,7 +2,7 @@
 """Real scans and meshes from Debian's package libcgal-demo, converted to files ParaView opens.
 
 The package keeps them in one archive; convert(name, folder) unpacks one member and writes a .vtp beside
-the example's output: points only for .xyz and .pwn, polygons for .off.
+the example's output: points for .xyz and .pwn, polygons for .off.
 """
 import os
 import tarfile
@@ -15,14 +15,18 @@ ARCHIVE = "/usr/share/doc/libcgal-dev/data.tar.gz"
 
 
 def _read_points(lines):
-    """One point a line, the first three numbers; a line with fewer (a leading count) is no point."""
-    points = vtkPoints()
+    """One point a line, the first three numbers; a line with fewer (a leading count) is no point.
+
+    Each gets a vertex, since ParaView draws nothing else.
+    """
+    points, vertices = vtkPoints(), vtkCellArray()
     for line in lines:
         words = line.split()
         if len(words) >= 3:
-            points.InsertNextPoint(*(float(word) for word in words[:3]))
+            vertices.InsertNextCell(1, [points.InsertNextPoint(*(float(word) for word in words[:3]))])
     data = vtkPolyData()
     data.SetPoints(points)
+    data.SetVerts(vertices)
     return data
 
 
