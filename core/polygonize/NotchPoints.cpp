@@ -51,20 +51,15 @@ public:
   void add(const NotchSite& site, NotchPoint& result)
   {
     const Vec3 middle = site.middle();
-    sites_.push_back({ &site, &result, middle, middle, 0.0, {}, true });
+    sites_.push_back({ &site, &result, middle, middle, false, 0.0, {}, true });
   }
 
   void run()
   {
     this->keepFar();
     this->findCreases();
-    for (const Search& search : sites_)
-    {
-      if (!(search.isCrease && this->settle(search)) && search.result->off >= kLeastRise * cell_)
-      {
-        this->rise(search);
-      }
-    }
+    this->settle();
+    this->rise();
   }
 
 private:
@@ -74,9 +69,10 @@ private:
     NotchPoint* result;
     Vec3 point;  ///< where the planes of the steps before meet; at first the middle
     Vec3 target; ///< the point of the crease next to this is wanted
+    bool inside; ///< the middle
     double wideAngle = 0.0;
     TouchingPlanes planes; ///< of the step at hand
-    bool isCrease = true;  ///< until a step tells otherwise
+    bool isCrease = true;  ///< until a step tells otherwise, or it is not found
   };
 
   /// Leaves out those that are on the surface, nearly, or as far below it as the normals of the rim
@@ -88,10 +84,12 @@ private:
     {
       middles.push_back(search.site->middle());
     }
-    const TouchingPlanes planes = this->planesAt(middles);
+    std::vector<double> values;
+    const TouchingPlanes planes = this->planesAt(middles, values);
     std::vector<Search> far;
     for (std::size_t k = 0; k < sites_.size(); ++k)
     {
+      sites_[k].inside = values[k] >= kThreshold;
       sites_[k].result->off = std::abs(planes[k].ahead);
       if (!(sites_[k].result->off < kFlat * cell_) && !this->isSmooth(*sites_[k].site, planes[k]))
       {
@@ -109,16 +107,17 @@ private:
       std::abs(off - expected) < kOffSmooth * cell_ + kOffShare * expected;
   }
 
-  TouchingPlanes planesAt(const std::vector<Vec3>& points) const
+  TouchingPlanes planesAt(const std::vector<Vec3>& points, std::vector<double>& values) const
   {
     ScratchVectors places(points.size()), gradients(points.size());
-    ScratchArray values(points.size());
+    values.resize(points.size());
     for (std::size_t k = 0; k < points.size(); ++k)
     {
       places.batch().set(k, points[k]);
     }
     field_.fieldAndGradient(places.points(), values.data(), gradients.batch());
     TouchingPlanes planes;
+    planes.reserve(points.size());
     for (std::size_t k = 0; k < points.size(); ++k)
     {
       planes.push_back(TouchingPlane::of(points[k], values[k], gradients.points()[k]));
@@ -183,7 +182,8 @@ private:
         places.insert(places.end(), around.begin(), around.end());
       }
     }
-    const TouchingPlanes planes = this->planesAt(places);
+    std::vector<double> values;
+    const TouchingPlanes planes = this->planesAt(places, values);
     auto next = planes.begin();
     for (Search& search : sites_)
     {
@@ -219,51 +219,100 @@ private:
       { return plane.normal.allFinite() && std::abs(plane.ahead) <= kFarthest * cell_; });
   }
 
-  bool settle(const Search& search) const
+  /// Puts the points of creases on the surface, and keeps them.
+  void settle()
   {
-    Vec3 point = search.point;
-    const Vec3 normal = middleNormal(search.planes, kLeastAngle).stableNormalized();
+    std::vector<Search*> creases;
+    std::vector<SurfaceMove> moves;
+    std::vector<Vec3> points;
+    for (Search& search : sites_)
+    {
+      if (search.isCrease)
+      {
+        creases.push_back(&search);
+        moves.push_back(
+          { search.point, middleNormal(search.planes, kLeastAngle).stableNormalized(), false });
+        points.push_back(search.point);
+      }
+    }
+    const std::vector<double> excess = excessAt(field_, points);
+    std::size_t off = 0;
+    for (std::size_t k = 0; k < creases.size(); ++k)
+    {
+      if (std::abs(excess[k]) <= kOnSurface * cell_ * NotchFinder::steepest(creases[k]->planes))
+      {
+        this->keep(*creases[k], moves[k], kLeastCrease * cell_);
+        continue;
+      }
+      creases[off] = creases[k];
+      moves[off++] = moves[k];
+    }
+    moves.resize(off);
+    moveToSurface(field_, kReach * cell_, moves);
+    for (std::size_t k = 0; k < off; ++k)
+    {
+      creases[k]->isCrease = moves[k].found;
+      if (moves[k].found)
+      {
+        this->keep(*creases[k], moves[k], kLeastCrease * cell_);
+      }
+    }
+  }
+
+  static double steepest(const TouchingPlanes& planes)
+  {
     double slope = 0.0;
-    for (const TouchingPlane& plane : search.planes)
+    for (const TouchingPlane& plane : planes)
     {
       slope = std::max(slope, plane.slope);
     }
-    const bool settled = std::abs(excessAt(field_, point)) <= kOnSurface * cell_ * slope ||
-      moveToSurface(field_, kReach * cell_, normal, point);
-    if (settled && !normal.isZero())
-    {
-      this->keep(search, point, normal, kLeastCrease * cell_);
-    }
-    return settled;
+    return slope;
   }
 
-  /// To the surface over the middle.
-  void rise(const Search& search) const
+  /// To the surface over the middle, where there is no crease.
+  void rise()
   {
-    const Vec3 normal = search.site->middleNormal();
-    Vec3 point = search.site->middle();
-    // Most are too low, which one more question tells.
-    const bool inside = excessAt(field_, point) >= 0.0;
-    const Vec3 least = (inside ? kLeastCurve : -kLeastCurve) * cell_ * normal;
-    if ((excessAt(field_, point + least) >= 0.0) != inside)
+    std::vector<const Search*> low;
+    std::vector<Vec3> points;
+    for (const Search& search : sites_)
     {
-      return;
+      if (!search.isCrease && search.result->off >= kLeastRise * cell_)
+      {
+        const double least = search.inside ? kLeastCurve : -kLeastCurve;
+        low.push_back(&search);
+        points.push_back(search.site->middle() + least * cell_ * search.site->middleNormal());
+      }
     }
-    if (!normal.isZero() && moveToSurface(field_, kRise * cell_, normal, point))
+    // Most are too low, which one more question tells.
+    const std::vector<double> excess = excessAt(field_, points);
+    std::vector<const Search*> high;
+    std::vector<SurfaceMove> moves;
+    for (std::size_t k = 0; k < low.size(); ++k)
     {
-      this->keep(search, point, normal, kLeastCurve * cell_);
+      if ((excess[k] >= 0.0) == low[k]->inside)
+      {
+        high.push_back(low[k]);
+        moves.push_back({ low[k]->site->middle(), low[k]->site->middleNormal(), false });
+      }
+    }
+    moveToSurface(field_, kRise * cell_, moves);
+    for (std::size_t k = 0; k < high.size(); ++k)
+    {
+      if (moves[k].found)
+      {
+        this->keep(*high[k], moves[k], kLeastCurve * cell_);
+      }
     }
   }
 
   /// What is inside is so by the surface that lies over it.
-  void keep(const Search& search, const Vec3& point, const Vec3& normal, double least) const
+  void keep(const Search& search, const SurfaceMove& found, double least) const
   {
-    const Vec3 middle = search.site->middle();
-    const double height = search.site->distance(point);
-    const bool rises = normal.dot(point - middle) > 0.0;
-    if (height >= least && rises == (excessAt(field_, middle) >= 0.0))
+    const double height = search.site->distance(found.point);
+    const bool rises = found.direction.dot(found.point - search.site->middle()) > 0.0;
+    if (!found.direction.isZero() && height >= least && rises == search.inside)
     {
-      *search.result = { search.result->off, height, point, normal };
+      *search.result = { search.result->off, height, found.point, found.direction };
     }
   }
 

@@ -8,9 +8,15 @@ namespace hybridtree
 namespace
 {
 
+/// Both ends as one number; -1 comes first.
+std::uint64_t keyOf(const TriangleSide& side)
+{
+  return std::uint64_t(std::uint32_t(side.from) + 1u) << 32 | (std::uint32_t(side.to) + 1u);
+}
+
 bool isBefore(const TriangleSide& a, const TriangleSide& b)
 {
-  return std::make_pair(a.from, a.to) < std::make_pair(b.from, b.to);
+  return keyOf(a) < keyOf(b);
 }
 
 } // namespace
@@ -26,13 +32,15 @@ void TriangleSides::add(const TriangleMesh& mesh, std::size_t triangle)
 
 void TriangleSides::sort()
 {
-  std::sort(sides_.begin(), sides_.end(), isBefore);
+  // Inlined, as a pointer to the function would not be.
+  std::sort(sides_.begin(), sides_.end(),
+    [](const TriangleSide& a, const TriangleSide& b) { return isBefore(a, b); });
 }
 
 const TriangleSide* TriangleSides::find(std::int32_t from, std::int32_t to) const
 {
-  const auto found =
-    std::lower_bound(sides_.begin(), sides_.end(), TriangleSide{ from, to, 0 }, isBefore);
+  const auto found = std::lower_bound(sides_.begin(), sides_.end(), TriangleSide{ from, to, 0 },
+    [](const TriangleSide& a, const TriangleSide& b) { return isBefore(a, b); });
   return found != sides_.end() && found->from == from && found->to == to ? &*found : nullptr;
 }
 
