@@ -6,6 +6,7 @@
 #include "core/base/RecentStore.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 
@@ -18,6 +19,8 @@ constexpr double kBytesPerBrick = 20000.0;
 
 // Cells along the side of what is marked, and remembered, as one.
 constexpr std::int64_t kUnit = 4 * kBrickSide;
+constexpr std::size_t kLevels = 5; // of halving it down to cells
+static_assert(kUnit >> kLevels == 1, "a unit is halved down to cells");
 constexpr std::size_t kRememberedBytes = std::size_t(32) << 20;
 
 // A surface is looked for down to blocks of this many cells, and a bit beyond: meshes are off the
@@ -36,21 +39,22 @@ struct Reach
   const FieldSource* source = nullptr; ///< valid in the block
 };
 
-/// What the search in one unit goes on with, so that nothing is allocated for a block.
-struct Search
-{
-  std::vector<FieldSourcePtr> sources; ///< that blocks refer to
-  std::vector<int> possible;           ///< terms that may not be 0
-  std::vector<int> certain;
-  std::vector<Interval> ranges;
-  CellSet cells; ///< the marks
-};
-
 struct Block
 {
   Index3 low{};
   std::int64_t side = 1;
   std::vector<Reach> reach;
+};
+
+/// What the search in one unit goes on with, so that nothing is allocated for a block.
+struct Search
+{
+  std::vector<FieldSourcePtr> sources; ///< that blocks refer to
+  std::array<Block, kLevels> blocks;   ///< the one at hand on each level below the unit
+  std::vector<int> possible;           ///< terms that may not be 0
+  std::vector<int> certain;
+  std::vector<Interval> ranges;
+  CellSet cells; ///< the marks
 };
 
 /// All that the marks in one unit depend on.
@@ -205,7 +209,12 @@ private:
       return;
     }
     progress_.check();
-    this->forEachChild(block, [&](Block child) { this->collectUnits(std::move(child)); });
+    for (int n = 0; n < 8; ++n)
+    {
+      Block child;
+      Marker::setChild(block, n, child);
+      this->collectUnits(std::move(child));
+    }
   }
 
   void checkBudget(std::size_t bricks) const
@@ -229,7 +238,7 @@ private:
       std::stable_partition(unit.reach.begin(), unit.reach.end(),
         [&](const Reach& reach) { return !terms_[reach.term].node->isFaceted(); });
       Search search;
-      this->markBlock(std::move(unit), search);
+      this->markBlock(unit, search, 0);
       if (this->areTooMany())
       {
         return nullptr;
@@ -327,21 +336,15 @@ private:
     return range.min <= kThreshold + kRangeSlack && range.max >= kThreshold - kRangeSlack;
   }
 
-  template <typename Body>
-  void forEachChild(const Block& block, Body&& body) const
+  static void setChild(const Block& block, int n, Block& child)
   {
-    for (int n = 0; n < 8; ++n)
+    child.side = block.side / 2;
+    child.low = block.low;
+    for (int axis = 0; axis < 3; ++axis)
     {
-      Block child;
-      child.side = block.side / 2;
-      child.low = block.low;
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        child.low[axis] += (n >> axis & 1) != 0 ? child.side : 0;
-      }
-      child.reach = block.reach;
-      body(std::move(child));
+      child.low[axis] += (n >> axis & 1) != 0 ? child.side : 0;
     }
+    child.reach = block.reach;
   }
 
   /// Specialises the terms to a block.
@@ -363,7 +366,8 @@ private:
 
   bool areTooMany() const { return count_ > mostCells_; }
 
-  void markBlock(Block block, Search& search)
+  /// \param level of its children.
+  void markBlock(Block& block, Search& search, std::size_t level)
   {
     if (this->areTooMany())
     {
@@ -384,7 +388,12 @@ private:
     {
       this->narrow(block, search);
     }
-    this->forEachChild(block, [&](Block child) { this->markBlock(std::move(child), search); });
+    Block& child = search.blocks[level];
+    for (int n = 0; n < 8; ++n)
+    {
+      Marker::setChild(block, n, child);
+      this->markBlock(child, search, level + 1);
+    }
   }
 
   const std::vector<MarkTerm>& terms_;
