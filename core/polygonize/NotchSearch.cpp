@@ -116,9 +116,14 @@ void NotchSearch::findTriangles(const std::vector<bool>& removed)
     }
   }
   sides_.sort();
+  twins_.clear();
+  for (const TriangleSide& side : sides_.all())
+  {
+    twins_.push_back(this->findChangeableTwin(side));
+  }
 }
 
-const TriangleSide* NotchSearch::changeableTwin(const TriangleSide& side) const
+const TriangleSide* NotchSearch::findChangeableTwin(const TriangleSide& side) const
 {
   if (side.from > side.to || !hot_[side.from] || !hot_[side.to] || side.triangle < options_.first)
   {

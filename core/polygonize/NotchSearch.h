@@ -46,7 +46,11 @@ public:
   const TriangleSides& sides() const { return sides_; }
 
   /// The other side of an edge that may be changed, or null; for one of its two sides only.
-  const TriangleSide* changeableTwin(const TriangleSide& side) const;
+  /// \param side of sides().
+  const TriangleSide* changeableTwin(const TriangleSide& side) const
+  {
+    return twins_[static_cast<std::size_t>(&side - sides_.all().data())];
+  }
   NotchKey edgeKey(const TriangleSide& side, const TriangleSide& twin) const;
   /// That of the edge which would take its place.
   static NotchKey flipped(const NotchKey& key) { return { key[1], key[2], key[3], key[0] }; }
@@ -60,6 +64,7 @@ private:
   bool isBent(const Triangle& corners) const;
   bool isCalm(const Triangle& corners) const;
   void heat(const Triangle& corners);
+  const TriangleSide* findChangeableTwin(const TriangleSide& side) const;
   void findTriangles(const std::vector<bool>& removed);
   void lookAt(const std::vector<NotchKey>& keys);
   NotchSite siteOf(const NotchKey& key) const;
@@ -72,6 +77,7 @@ private:
   std::vector<bool> hot_; ///< per point
   std::vector<std::size_t> triangles_;
   TriangleSides sides_;
+  std::vector<const TriangleSide*> twins_; ///< that may be changed, of each side; or null
   std::unordered_map<NotchKey, NotchPoint, NotchKeyHash> known_;
 };
 

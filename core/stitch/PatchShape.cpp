@@ -265,7 +265,7 @@ private:
       }
       for (const Index way : { h, twin })
       {
-        const double gain = this->gainOfCollapse(way);
+        const double gain = this->gainOfCollapse(way, best);
         if (gain > best && links_.canCollapse(way))
         {
           best = gain;
@@ -273,7 +273,7 @@ private:
           flip = false;
         }
       }
-      const double gain = this->gainOfFlip(h, twin);
+      const double gain = this->gainOfFlip(h, twin, best);
       if (gain > best && links_.canFlip(h))
       {
         best = gain;
@@ -306,8 +306,9 @@ private:
     return true;
   }
 
-  /// By how much the shapes around the start of h get better; 0 or less when it may not go.
-  double gainOfCollapse(Index h) const
+  /// By how much the shapes around the start of h get better; 0 when it may not go, or when that is
+  /// no more than `least`.
+  double gainOfCollapse(Index h, double least) const
   {
     const Index from = links_.from(h);
     const Index to = links_.to(h);
@@ -326,6 +327,10 @@ private:
         longest = std::max(longest, this->length(leaving));
         before += badness(this->shape(leaving / 3));
       });
+    if (before <= least)
+    {
+      return 0.0;
+    }
     const Vec3& up = mesh_.normals[from];
     const double mostOff = (this->isCreasePoint(from) ? kMostOffCrease : kMostOff) * cellSize_;
     allowed = std::abs(up.dot(target - this->point(from))) <= 2.0 * mostOff;
@@ -333,6 +338,10 @@ private:
     links_.forEachLeaving(from,
       [&](Index leaving)
       {
+        if (!allowed)
+        {
+          return;
+        }
         const auto t = static_cast<std::size_t>(leaving / 3);
         const Index b = links_.to(leaving);
         const Index c = links_.opposite(leaving);
@@ -348,12 +357,17 @@ private:
         {
           return;
         }
+        after += badness(shapeOf(target, this->point(b), this->point(c)));
+        if (before - after <= least)
+        {
+          allowed = false;
+          return;
+        }
         const Vec3 turned = normalOf(target, this->point(b), this->point(c));
         const Vec3 reference = solid ? old : this->meanNormal(b, c, to);
         const double cosine = solid ? kLargestTurn : kLargestTilt;
         allowed = allowed && turned.dot(reference) > cosine * turned.norm() * reference.norm() &&
           (this->point(b) - target).norm() <= limit;
-        after += badness(shapeOf(target, this->point(b), this->point(c)));
       });
     return allowed ? before - after : 0.0;
   }
@@ -371,7 +385,8 @@ private:
     return mesh_.normals[a] + mesh_.normals[b] + mesh_.normals[c];
   }
 
-  double gainOfFlip(Index h, Index twin) const
+  /// The same of a flip.
+  double gainOfFlip(Index h, Index twin, double least) const
   {
     const Index ia = links_.from(h);
     const Index ib = links_.to(h);
@@ -384,7 +399,7 @@ private:
     const double shapes[2] = { this->shape(h / 3), this->shape(twin / 3) };
     const double before = badness(shapes[0]) + badness(shapes[1]);
     const double after = badness(shapeOf(d, b, c)) + badness(shapeOf(c, a, d));
-    if (before - after <= kWorthIt)
+    if (before - after <= least)
     {
       return 0.0;
     }
