@@ -259,7 +259,12 @@ Interval MeshDistance::signedRange(const Box3& box) const
 
 MeshPart MeshDistance::restrictedTo(const Box3& box, double maxDistance) const
 {
-  const double limit = std::min(maxDistance, this->range(box).max) * bvh_->scale() * (1.0 + 1e-6);
+  return this->within(box, std::min(maxDistance, this->range(box).max));
+}
+
+MeshPart MeshDistance::within(const Box3& box, double maxDistance) const
+{
+  const double limit = maxDistance * bvh_->scale() * (1.0 + 1e-6);
   const Vec3 lower = bvh_->toLocal(box.min());
   const Vec3 upper = bvh_->toLocal(box.max());
   const double margin =

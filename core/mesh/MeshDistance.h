@@ -71,6 +71,9 @@ public:
 
   /// What can be nearest to points of the box, no farther than maxDistance. Empty roots: nothing.
   MeshPart restrictedTo(const Box3& box, double maxDistance) const;
+  /// The same where no point of the box is farther than maxDistance from the mesh, or what is
+  /// farther does not matter: saves a search.
+  MeshPart within(const Box3& box, double maxDistance) const;
 
   /// Every edge has two triangles that agree: inside is exact. Otherwise the winding number
   /// decides.

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <mutex>
 
 namespace hybridtree
 {
@@ -72,25 +73,39 @@ private:
   double value_;
 };
 
-/// The field in one box, by the triangles that can be nearest there.
+/// The field in one box, by the triangles that can be nearest there. They are looked for when the
+/// first point is asked: many boxes are only halved further.
 class MeshField::Part final : public FieldSource
 {
 public:
-  Part(const MeshField& whole, MeshPart part) : whole_(whole), part_(std::move(part)) {}
+  /// \param box in the space of the mesh. \param reach largest distance that matters there.
+  Part(const MeshField& whole, const Box3& box, double reach)
+    : whole_(whole), box_(box), reach_(reach)
+  {
+  }
   void field(PointBatch points, double* value) const override
   {
-    whole_.evaluate(points, value, {}, &part_);
+    whole_.evaluate(points, value, {}, &this->part());
   }
   void fieldAndGradient(PointBatch points, double* value, VectorBatch gradient) const override
   {
-    whole_.evaluate(points, value, gradient, &part_);
+    whole_.evaluate(points, value, gradient, &this->part());
   }
   Interval range(const Box3& box) const override { return whole_.range(box); }
   FieldSourcePtr restrictedTo(const Box3& box) const override { return whole_.restrictedTo(box); }
 
 private:
+  const MeshPart& part() const
+  {
+    std::call_once(found_, [this] { part_ = whole_.distance().within(box_, reach_); });
+    return part_;
+  }
+
   const MeshField& whole_;
-  MeshPart part_;
+  const Box3 box_;
+  const double reach_;
+  mutable std::once_flag found_;
+  mutable MeshPart part_;
 };
 
 MeshField::MeshField(
@@ -211,8 +226,9 @@ FieldSourcePtr MeshField::restrictedTo(const Box3& box) const
   {
     return std::make_shared<DeepInside>(potential_.maximumField());
   }
+  const double farthest = std::max(-signedRange.min, signedRange.max);
   return std::make_shared<Part>(
-    *this, this->distance().restrictedTo(local, std::max(influenceRadius_, offset_)));
+    *this, local, std::min(farthest, std::max(influenceRadius_, offset_)));
 }
 
 void MeshField::membership(PointBatch points, std::int8_t* side) const
