@@ -11,8 +11,10 @@
 // Medians of rounds in turns, one thread, its processor time.
 //
 //   ConvolutionBenchmark [rounds, default 7]
+#include "core/base/Parallel.h"
 #include "core/convolution/ConvolutionKernels.h"
-#include "core/nodes/SubdivisionSkeleton.h"
+#include "core/nodes/SkeletonElementFields.h"
+#include "core/subdivision/PieceMeshes.h"
 #include "tests/support/Random.h"
 #include "tests/support/SkeletonShapes.h"
 
@@ -23,6 +25,7 @@
 #include <cstdlib>
 #include <functional>
 #include <map>
+#include <optional>
 #include <time.h>
 #include <vector>
 
@@ -212,6 +215,45 @@ void figure14(const char* name, const SkeletonGraph& graph, int level, int round
   }
 }
 
+// [SUB]'s own figure: from the coarse graph to the triangles around all pieces, as in the preview.
+void figure14Meshes(const char* name, const SkeletonGraph& graph, int level, int rounds)
+{
+  setThreadCount(1);
+  for (const KernelKind kernel : { KernelKind::Compact, KernelKind::Cauchy })
+  {
+    std::size_t triangles = 0;
+    const auto make = [&](BlendingKind blending, bool byElements)
+    {
+      const NodePtr node = skeleton(graph, level, kernel, blending);
+      const auto& leaf = dynamic_cast<const SubdivisionSkeleton&>(*node);
+      std::optional<SkeletonElementFields> elements;
+      if (byElements)
+      {
+        elements.emplace(leaf, SkeletonElementFields::Sums::Own);
+      }
+      const SkeletonField field{ leaf.coarse(), leaf.refined(), level, leaf, 2.0, 0,
+        byElements ? &*elements : nullptr };
+      triangles = joinPieces(pieceMeshes(field, {})).triangles.size();
+    };
+    std::vector<Work> works;
+    for (const BlendingKind blending :
+      { BlendingKind::All, BlendingKind::Neighbours, BlendingKind::Paper })
+    {
+      works.push_back([&, blending] { make(blending, false); });
+      works.push_back([&, blending] { make(blending, true); });
+    }
+    const std::vector<double> seconds = times(works, rounds);
+    std::printf("%-8s %5d %-8s %9zu", name, level,
+      kernel == KernelKind::Compact ? "compact" : "cauchy", triangles);
+    for (const double time : seconds)
+    {
+      std::printf(" %9.2f", 1e3 * time);
+    }
+    const double all = std::min(seconds[0], seconds[1]);
+    std::printf(" %9.2f %9.2f\n", all / std::min(seconds[2], seconds[3]), all / seconds[5]);
+  }
+}
+
 // 8 x 8 nodes on a triangle: collapsed to one corner.
 struct Rule
 {
@@ -351,6 +393,16 @@ int main(int argc, char** argv)
   {
     figure14("bretzel", bretzel(), level, rounds);
     figure14("alien", alien(), level, rounds);
+  }
+  std::printf("\nFigure 14: milliseconds of processor time for the meshes of all pieces, with the "
+              "field wherever points are\nand near the elements that they belong to (paper: of "
+              "that element and its neighbours alone)\n"
+              "shape    level kernel   triangles       all    +known neighbours    +known     paper"
+              "    +known     all/n     all/p\n");
+  for (const int level : { 0, 1, 2 })
+  {
+    figure14Meshes("bretzel", bretzel(), level, rounds);
+    figure14Meshes("alien", alien(), level, rounds);
   }
   std::printf(
     "\nOne triangle, edges in units of R: nanoseconds a point; ratios to the closed form\n"

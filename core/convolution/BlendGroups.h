@@ -22,13 +22,21 @@ struct FarGroup
   CauchyBound bound;
 };
 
-/// A skeleton in groups, as BlendedField keeps it.
+/// Which elements of a field belong together.
+struct ElementGroups
+{
+  const ConvolutionField& whole;
+  const std::vector<std::int32_t>& segments; ///< per element of `whole`, as it was given them
+  const std::vector<std::int32_t>& triangles;
+  std::size_t count; ///< of groups
+};
+
+/// A skeleton in groups, as BlendedField keeps it where neighbours blend.
 struct BlendGroups
 {
   const BlendingControl& control;
   const ConvolutionField& whole;
-  const std::vector<std::int32_t>& segmentGroups; ///< per element of `whole`, as it was given them
-  const std::vector<std::int32_t>& triangleGroups;
+  ElementGroups elements;
   const ConvolutionField& pieces;
   const BlendPieces& places;              ///< of the pieces, as that field was given them
   const std::vector<FarGroup>& farGroups; ///< empty with the compact kernel
@@ -36,10 +44,7 @@ struct BlendGroups
   std::size_t size() const { return places.neighbours.size(); }
   bool areNeighbours(std::int32_t a, std::int32_t b) const;
   /// Whether fields end, and groups that do not reach a point have no say there.
-  bool isLocal() const
-  {
-    return whole.kernel().kind == KernelKind::Compact && control.kind != BlendingKind::Paper;
-  }
+  bool isLocal() const { return whole.kernel().kind == KernelKind::Compact; }
 };
 
 /// Numbers for some of many groups, in the order in which they are met. In a thread one at a time

@@ -10,7 +10,6 @@ BlendMixture::BlendMixture(
   PieceFields& fields, const std::vector<double>& bounds, const std::vector<std::int32_t>* centers)
   : fields_(fields)
   , share_(fields.pieces().groups().control)
-  , isPaper_(fields.pieces().groups().control.kind == BlendingKind::Paper)
   , bounds_(bounds)
   , sets_(fields.pieces(), bounds, centers)
   , points_(fields.points().size)
@@ -53,21 +52,11 @@ bool BlendMixture::mayBeBest(const BlendSets::Set& set)
 {
   double unknown = 0.0;
   this->clear(total_);
-  const bool isCut = isPaper_ && fields_.isKnown(set.center);
   for (const std::size_t* member = set.begin; member != set.end; ++member)
   {
     if (!fields_.isKnown(*member))
     {
       unknown += bounds_[*member];
-    }
-    else if (isCut)
-    {
-      const double* own = fields_.field(*member);
-      const double* here = fields_.field(set.center);
-      for (std::size_t k = 0; k < points_; ++k)
-      {
-        total_[k] += std::min(own[k], here[k]);
-      }
     }
     else
     {
@@ -99,31 +88,20 @@ bool BlendMixture::staysPossible(const BlendSets::Set& set)
   return isPossible;
 }
 
-// The members on which a set's sum says where a point is. As [SUB]: i alone.
-BlendSets::Set BlendMixture::placesOf(BlendSets::Set set) const
-{
-  if (isPaper_)
-  {
-    set.begin = std::find(set.begin, set.end, set.center);
-    set.end = set.begin + 1;
-  }
-  return set;
-}
-
-void BlendMixture::sumPlaces(const BlendSets::Set& places)
+void BlendMixture::sumPlaces(const BlendSets::Set& set)
 {
   this->clear(here_);
-  for (const std::size_t* place = places.begin; place != places.end; ++place)
+  for (const std::size_t* place = set.begin; place != set.end; ++place)
   {
     this->add(fields_.field(*place), here_);
   }
 }
 
 // D of one member.
-void BlendMixture::findDistance(const BlendSets::Set& places, std::size_t member)
+void BlendMixture::findDistance(const BlendSets::Set& set, std::size_t member)
 {
   this->clear(distance_);
-  for (const std::size_t* place = places.begin; place != places.end; ++place)
+  for (const std::size_t* place = set.begin; place != set.end; ++place)
   {
     if (*place != member)
     {
@@ -136,26 +114,18 @@ void BlendMixture::findDistance(const BlendSets::Set& places, std::size_t member
   }
 }
 
-// [SUB]'s sums are those of the largest element alone: with the others cut to its own field they
-// are continuous and agree with [SUB] where it is the largest.
-bool BlendMixture::isCut(double own, double here) const
-{
-  return isPaper_ && here < own;
-}
-
 void BlendMixture::tryOut(std::size_t set)
 {
   const BlendSets::Set of = sets_[set];
-  const BlendSets::Set places = this->placesOf(of);
-  this->sumPlaces(places);
+  this->sumPlaces(of);
   this->clear(total_);
   for (const std::size_t* member = of.begin; member != of.end; ++member)
   {
     const double* own = fields_.field(*member);
-    this->findDistance(places, *member);
+    this->findDistance(of, *member);
     for (std::size_t k = 0; k < points_; ++k)
     {
-      total_[k] += share_(distance_[k]) * (this->isCut(own[k], here_[k]) ? here_[k] : own[k]);
+      total_[k] += share_(distance_[k]) * own[k];
     }
   }
   for (std::size_t k = 0; k < points_; ++k)
@@ -233,9 +203,8 @@ private:
   void addSum(BlendMixture& mixture, std::size_t at, std::size_t k)
   {
     const BlendSets::Set set = mixture.sets_[mixture.winners_[at]];
-    const BlendSets::Set places = mixture.placesOf(set);
     double here = 0.0;
-    for (const std::size_t* place = places.begin; place != places.end; ++place)
+    for (const std::size_t* place = set.begin; place != set.end; ++place)
     {
       here += fields_.field(*place)[at];
       this->row(isPlace_, *place)[k] = 1.0;
@@ -243,15 +212,14 @@ private:
     for (const std::size_t* member = set.begin; member != set.end; ++member)
     {
       double distance = 0.0;
-      for (const std::size_t* place = places.begin; place != places.end; ++place)
+      for (const std::size_t* place = set.begin; place != set.end; ++place)
       {
         distance += *place == *member ? 0.0 : fields_.far(*place, *member)[at];
       }
       distance /= here;
       const double own = fields_.field(*member)[at];
-      const bool isCut = mixture.isCut(own, here);
-      this->row(shares_, isCut ? set.center : *member)[k] += mixture.share_(distance);
-      const double step = (isCut ? here : own) * mixture.share_.slope(distance) / here;
+      this->row(shares_, *member)[k] = mixture.share_(distance);
+      const double step = own * mixture.share_.slope(distance) / here;
       if (step != 0.0)
       {
         this->row(steps_, *member)[k] = step;

@@ -35,15 +35,12 @@ private:
 
   bool mayBeBest(const BlendSets::Set& set);
   bool staysPossible(const BlendSets::Set& set);
-  BlendSets::Set placesOf(BlendSets::Set set) const;
-  void sumPlaces(const BlendSets::Set& places);
-  void findDistance(const BlendSets::Set& places, std::size_t member);
-  bool isCut(double own, double here) const;
+  void sumPlaces(const BlendSets::Set& set);
+  void findDistance(const BlendSets::Set& set, std::size_t member);
   void tryOut(std::size_t set);
 
   PieceFields& fields_;
   BlendShare share_;
-  bool isPaper_;
   const std::vector<double>& bounds_;
   BlendSets sets_;
   std::size_t points_;

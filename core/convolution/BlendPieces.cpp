@@ -177,76 +177,8 @@ private:
   std::vector<std::vector<GroupDistance>> distances_;
 };
 
-// [SUB] Figure 12: 0 at the corner or edge where the neighbour is attached, 1 opposite of it.
-class PaperPlaces
-{
-public:
-  explicit PaperPlaces(const GroupedElements& elements)
-    : elements_(elements), neighbours_(elements.groups.size())
-  {
-    std::vector<std::vector<std::int32_t>> atPoint;
-    for (std::size_t group = 0; group < elements.groups.size(); ++group)
-    {
-      for (const std::int32_t point : elements.groups[group])
-      {
-        if (point >= 0)
-        {
-          const auto index = static_cast<std::size_t>(point);
-          atPoint.resize(std::max(atPoint.size(), index + 1));
-          atPoint[index].push_back(static_cast<std::int32_t>(group));
-        }
-      }
-    }
-    for (const std::vector<std::int32_t>& groups : atPoint)
-    {
-      for (const std::int32_t group : groups)
-      {
-        std::vector<std::int32_t>& list = neighbours_[static_cast<std::size_t>(group)];
-        std::copy_if(groups.begin(), groups.end(), std::back_inserter(list),
-          [&](std::int32_t other) { return other != group; });
-      }
-    }
-    for (std::vector<std::int32_t>& list : neighbours_)
-    {
-      makeUnique(list);
-    }
-  }
-
-  template <std::size_t N>
-  BlendPieces::Place at(const GroupedElement<N>& element, const Weighted<N>& where) const
-  {
-    const auto own = static_cast<std::size_t>(element.group);
-    BlendPieces::Place place{ element.group, {} };
-    for (const std::int32_t other : neighbours_[own])
-    {
-      double far = 1.0;
-      for (std::size_t k = 0; k < 3; ++k)
-      {
-        const std::int32_t corner = elements_.groups[own][k];
-        const auto& others = elements_.groups[static_cast<std::size_t>(other)];
-        if (corner >= 0 && std::find(others.begin(), others.end(), corner) != others.end())
-        {
-          for (std::size_t i = 0; i < N; ++i)
-          {
-            far -= where.weights[i] * element.weights[i][k];
-          }
-        }
-      }
-      place.distances.push_back({ other, std::clamp(far, 0.0, 1.0) });
-    }
-    return place;
-  }
-
-  const std::vector<std::vector<std::int32_t>>& neighbours() const { return neighbours_; }
-
-private:
-  const GroupedElements& elements_;
-  std::vector<std::vector<std::int32_t>> neighbours_;
-};
-
-template <class Places>
-void cut(const GroupedElements& elements, const GroupedElement<2>& segment, const Places& places,
-  BlendPieces& pieces)
+void cut(const GroupedElements& elements, const GroupedElement<2>& segment,
+  const GraphPlaces& places, BlendPieces& pieces)
 {
   const std::array<Vec3, 2> ends = cornersOf(elements, segment);
   const int parts = partsOf((ends[1] - ends[0]).norm(),
@@ -262,9 +194,8 @@ void cut(const GroupedElements& elements, const GroupedElement<2>& segment, cons
   }
 }
 
-template <class Places>
-void cut(const GroupedElements& elements, const GroupedElement<3>& triangle, const Places& places,
-  BlendPieces& pieces)
+void cut(const GroupedElements& elements, const GroupedElement<3>& triangle,
+  const GraphPlaces& places, BlendPieces& pieces)
 {
   const std::array<Vec3, 3> corners = cornersOf(elements, triangle);
   double longest = 0.0;
@@ -298,8 +229,7 @@ void cut(const GroupedElements& elements, const GroupedElement<3>& triangle, con
   }
 }
 
-template <class Places>
-BlendPieces cutAll(const GroupedElements& elements, const Places& places)
+BlendPieces cutAll(const GroupedElements& elements, const GraphPlaces& places)
 {
   BlendPieces pieces;
   for (const GroupedElement<2>& segment : elements.segments)
@@ -398,10 +328,6 @@ double BlendPieces::Place::from(std::int32_t other, double farthest) const
 
 BlendPieces makeBlendPieces(const GroupedElements& elements, const BlendingControl& control)
 {
-  if (control.kind == BlendingKind::Paper)
-  {
-    return cutAll(elements, PaperPlaces(elements));
-  }
   const BlendShare share(control);
   BlendPieces pieces = cutAll(elements, GraphPlaces(elements, share.end()));
   pieces.farthest = farthestPlaces(pieces, share.farthest());

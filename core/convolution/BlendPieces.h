@@ -30,11 +30,11 @@ struct BlendPieces
   /// Per group, ascending, without itself: those it may blend with. Symmetric.
   std::vector<std::vector<std::int32_t>> neighbours;
   /// Per group, ascending: others with fields at places where it has one, with the compact kernel,
-  /// and how far its pieces that reach there are from them at most. Empty as [SUB].
+  /// and how far its pieces that reach there are from them at most.
   std::vector<std::vector<GroupDistance>> farthest;
 };
 
-/// \pre control.kind is not BlendingKind::All.
+/// \pre BlendingKind::Neighbours.
 BlendPieces makeBlendPieces(const GroupedElements& elements, const BlendingControl& control);
 
 } // namespace hybridtree

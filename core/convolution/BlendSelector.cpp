@@ -2,6 +2,7 @@
 #include "core/convolution/BlendSelector.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 namespace hybridtree
@@ -21,28 +22,86 @@ struct Workspace
   std::vector<const TriangleElement*> triangles;
 };
 
-// Finds the units of a selection.
-class Finder
+// The groups of a selection.
+class Sorter
 {
 public:
-  Finder(const BlendGroups& field, BlendSelection& selection, Workspace& work)
-    : field_(field)
-    , begin_(BlendShare(field.control).begin())
-    , selection_(selection)
-    , work_(work)
-    , numbers_(field.size())
+  Sorter(const ElementGroups& elements, BlendSelection& selection, Workspace& work)
+    : selection_(selection), work_(work), numbers_(elements.count)
   {
     work.segmentGroups.clear();
     work.triangleGroups.clear();
     for (const SegmentElement* segment : selection.all.segments)
     {
-      work.segmentGroups.push_back(numbers_.add(field.segmentGroups[field.whole.index(segment)]));
+      work.segmentGroups.push_back(numbers_.add(elements.segments[elements.whole.index(segment)]));
     }
     for (const TriangleElement* triangle : selection.all.triangles)
     {
       work.triangleGroups.push_back(
-        numbers_.add(field.triangleGroups[field.whole.index(triangle)]));
+        numbers_.add(elements.triangles[elements.whole.index(triangle)]));
     }
+  }
+
+  /// Each is a unit.
+  void separate()
+  {
+    work_.units.resize(numbers_.size());
+    std::iota(work_.units.begin(), work_.units.end(), std::size_t(0));
+    selection_.hasRest = false;
+    selection_.units.assign(numbers_.size(), { 0, 0 });
+    this->sortByUnits();
+  }
+
+protected:
+  /// Sets selection.groups, and sorts the elements by units, in order within each.
+  void sortByUnits()
+  {
+    for (std::size_t k = 0; k < numbers_.size(); ++k)
+    {
+      selection_.groups.push_back({ numbers_.group(k), work_.units[k] });
+    }
+    this->sortElements(work_.segmentGroups, selection_.all.segments, work_.segments,
+      &BlendSelection::Unit::segmentsEnd);
+    this->sortElements(work_.triangleGroups, selection_.all.triangles, work_.triangles,
+      &BlendSelection::Unit::trianglesEnd);
+  }
+
+  BlendSelection& selection_;
+  Workspace& work_;
+  GroupNumbers numbers_;
+
+private:
+  template <class Element>
+  void sortElements(const std::vector<std::size_t>& groups, std::vector<const Element*>& elements,
+    std::vector<const Element*>& sorted, std::size_t BlendSelection::Unit::*end)
+  {
+    std::vector<BlendSelection::Unit>& units = selection_.units;
+    for (const std::size_t group : groups)
+    {
+      ++(units[work_.units[group]].*end);
+    }
+    std::size_t begin = 0;
+    for (BlendSelection::Unit& unit : units)
+    {
+      begin += std::exchange(unit.*end, begin);
+    }
+    sorted.assign(elements.begin(), elements.end());
+    for (std::size_t k = 0; k < sorted.size(); ++k)
+    {
+      elements[(units[work_.units[groups[k]]].*end)++] = sorted[k];
+    }
+  }
+};
+
+// Finds the units of a selection.
+class Finder : private Sorter
+{
+public:
+  Finder(const BlendGroups& field, BlendSelection& selection, Workspace& work)
+    : Sorter(field.elements, selection, work)
+    , field_(field)
+    , begin_(BlendShare(field.control).begin())
+  {
   }
 
   void find()
@@ -54,10 +113,7 @@ public:
     selection_.isControlled = true;
     this->numberUnits();
     this->findPairs();
-    this->sortElements(work_.segmentGroups, selection_.all.segments, work_.segments,
-      &BlendSelection::Unit::segmentsEnd);
-    this->sortElements(work_.triangleGroups, selection_.all.triangles, work_.triangles,
-      &BlendSelection::Unit::trianglesEnd);
+    this->sortByUnits();
   }
 
 private:
@@ -106,10 +162,6 @@ private:
       }
     }
     selection_.units.assign(work_.groups.size(), { 0, 0 });
-    for (std::size_t k = 0; k < numbers_.size(); ++k)
-    {
-      selection_.groups.push_back({ numbers_.group(k), work_.units[k] });
-    }
   }
 
   void findPairs()
@@ -139,55 +191,46 @@ private:
     }
   }
 
-  // By units, in order within each.
-  template <class Element>
-  void sortElements(const std::vector<std::size_t>& groups, std::vector<const Element*>& elements,
-    std::vector<const Element*>& sorted, std::size_t BlendSelection::Unit::*end)
-  {
-    std::vector<BlendSelection::Unit>& units = selection_.units;
-    for (const std::size_t group : groups)
-    {
-      ++(units[work_.units[group]].*end);
-    }
-    std::size_t begin = 0;
-    for (BlendSelection::Unit& unit : units)
-    {
-      begin += std::exchange(unit.*end, begin);
-    }
-    sorted.assign(elements.begin(), elements.end());
-    for (std::size_t k = 0; k < sorted.size(); ++k)
-    {
-      elements[(units[work_.units[groups[k]]].*end)++] = sorted[k];
-    }
-  }
-
   const BlendGroups& field_;
   double begin_;
-  BlendSelection& selection_;
-  Workspace& work_;
-  GroupNumbers numbers_;
 };
 
-} // namespace
-
-void selectBlends(const BlendGroups& groups, BlendSelection& selection)
+void clearUnits(BlendSelection& selection)
 {
   selection.isControlled = false;
   selection.units.clear();
   selection.groups.clear();
   selection.apart.clear();
+}
+
+thread_local Workspace workspace;
+
+} // namespace
+
+void selectBlends(const BlendGroups& groups, BlendSelection& selection)
+{
+  clearUnits(selection);
   if (selection.all.empty())
   {
     return;
   }
   if (groups.isLocal())
   {
-    static thread_local Workspace work;
-    Finder(groups, selection, work).find();
+    Finder(groups, selection, workspace).find();
   }
   else
   {
     selection.isControlled = true;
+  }
+}
+
+void selectGroups(const ElementGroups& groups, BlendSelection& selection)
+{
+  clearUnits(selection);
+  if (!selection.all.empty())
+  {
+    selection.isControlled = true;
+    Sorter(groups, selection, workspace).separate();
   }
 }
 

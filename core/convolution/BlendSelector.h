@@ -11,4 +11,7 @@ namespace hybridtree
 /// these elements by units.
 void selectBlends(const BlendGroups& groups, BlendSelection& selection);
 
+/// The same where any two groups may be apart: each is a unit. Sets all but apart and farthest.
+void selectGroups(const ElementGroups& groups, BlendSelection& selection);
+
 } // namespace hybridtree

@@ -17,7 +17,6 @@ public:
     const std::vector<std::int32_t>* centers)
     : pieces_(pieces)
     , groups_(pieces.groups())
-    , isPaper_(groups_.control.kind == BlendingKind::Paper)
     , words_((bounds.size() + 63) / 64)
     , centers_(groups_.size(), GroupNumbers::kCenters)
   {
@@ -26,15 +25,7 @@ public:
       std::for_each(
         centers->begin(), centers->end(), [&](std::int32_t center) { this->addCenter(center); });
     }
-    // As [SUB]: i has a field itself.
-    for (std::size_t number = 0; isPaper_ && !centers && number < bounds.size(); ++number)
-    {
-      if (bounds[number] > 0.0)
-      {
-        this->addCenter(pieces.group(number));
-      }
-    }
-    isClosed_ = isPaper_ || centers;
+    isClosed_ = centers != nullptr;
     for (std::size_t number = 0; number < bounds.size(); ++number)
     {
       if (bounds[number] > 0.0)
@@ -75,9 +66,7 @@ private:
       const auto at = static_cast<std::size_t>(centers_.find(center));
       bits_[at * words_ + number / 64] |= std::uint64_t(1) << (number % 64);
       // Members ascend in all sets, so equal sets have equal bounds.
-      bounds_[at] += isPaper_
-        ? std::min(bounds[number], bounds[static_cast<std::size_t>(pieces_.find(center))])
-        : bounds[number];
+      bounds_[at] += bounds[number];
     };
     const std::int32_t group = pieces_.group(number);
     add(group);
@@ -87,7 +76,6 @@ private:
 
   const PiecesNear& pieces_;
   const BlendGroups& groups_;
-  bool isPaper_;
   bool isClosed_ = false;
   std::size_t words_;
   GroupNumbers centers_;
@@ -112,19 +100,14 @@ BlendSets::BlendSets(const PiecesNear& pieces, const std::vector<double>& bounds
         : std::lexicographical_compare(candidates.bits(a), candidates.bits(a) + words,
             candidates.bits(b), candidates.bits(b) + words);
     });
-  if (pieces.groups().control.kind != BlendingKind::Paper)
-  {
-    order.erase(
-      std::unique(order.begin(), order.end(),
-        [&](std::size_t a, std::size_t b)
-        { return std::equal(candidates.bits(a), candidates.bits(a) + words, candidates.bits(b)); }),
-      order.end());
-  }
+  order.erase(
+    std::unique(order.begin(), order.end(),
+      [&](std::size_t a, std::size_t b)
+      { return std::equal(candidates.bits(a), candidates.bits(a) + words, candidates.bits(b)); }),
+    order.end());
   for (const std::size_t candidate : order)
   {
-    const std::int32_t center = pieces.find(candidates.group(candidate));
-    Range range{ members_.size(), 0, center < 0 ? 0 : static_cast<std::size_t>(center),
-      candidates.bound(candidate) };
+    Range range{ members_.size(), 0, candidates.bound(candidate) };
     for (std::size_t number = 0; number < bounds.size(); ++number)
     {
       if (candidates.bits(candidate)[number / 64] >> (number % 64) & 1)
@@ -140,7 +123,7 @@ BlendSets::BlendSets(const PiecesNear& pieces, const std::vector<double>& bounds
 BlendSets::Set BlendSets::operator[](std::size_t k) const
 {
   const Range& range = ranges_[k];
-  return { members_.data() + range.begin, members_.data() + range.end, range.center, range.bound };
+  return { members_.data() + range.begin, members_.data() + range.end, range.bound };
 }
 
 } // namespace hybridtree

@@ -15,8 +15,7 @@ public:
   {
     const std::size_t* begin; ///< members, ascending
     const std::size_t* end;
-    std::size_t center; ///< as [SUB]: i, one of the members
-    double bound;       ///< of G_i at any of the points
+    double bound; ///< of G_i at any of the points
   };
 
   /// \param bounds per number: of its field at any of the points. Groups with 0 are in no set.
@@ -31,7 +30,6 @@ private:
   struct Range
   {
     std::size_t begin, end; // of members_
-    std::size_t center;
     double bound;
   };
 

@@ -86,16 +86,6 @@ private:
   ScratchVectors gradient_;
 };
 
-ElementSpans spansOf(const SegmentElement* const* segment)
-{
-  return { { segment, 1 }, {} };
-}
-
-ElementSpans spansOf(const TriangleElement* const* triangle)
-{
-  return { {}, { triangle, 1 } };
-}
-
 std::vector<FarGroup> farGroups(const ConvolutionField& pieces, const BlendPieces& places)
 {
   std::vector<FarGroup> groups(places.neighbours.size());
@@ -128,8 +118,13 @@ BlendedField::BlendedField(
       static_cast<double>(std::max<std::size_t>(1, elements.reaches.size())))
   , segmentGroups_(groupsOf(elements.segments))
   , triangleGroups_(groupsOf(elements.triangles))
+  , groupCount_(elements.groups.size())
 {
-  if (control.kind != BlendingKind::All)
+  if (control.kind == BlendingKind::Paper)
+  {
+    paper_ = std::make_unique<const PaperSums>(elements, whole_);
+  }
+  if (control.kind == BlendingKind::Neighbours)
   {
     places_ = makeBlendPieces(elements, control);
     pieces_ = std::make_unique<const ConvolutionField>(kernel, places_.segments, places_.triangles);
@@ -142,9 +137,14 @@ BlendedField::BlendedField(
   }
 }
 
+ElementGroups BlendedField::elementGroups() const
+{
+  return { whole_, segmentGroups_, triangleGroups_, groupCount_ };
+}
+
 BlendGroups BlendedField::groups() const
 {
-  return { control_, whole_, segmentGroups_, triangleGroups_, *pieces_, places_, farGroups_ };
+  return { control_, whole_, this->elementGroups(), *pieces_, places_, farGroups_ };
 }
 
 void BlendedField::select(const Box3& box, BlendSelection& selection) const
@@ -154,6 +154,45 @@ void BlendedField::select(const Box3& box, BlendSelection& selection) const
   if (pieces_)
   {
     selectBlends(this->groups(), selection);
+  }
+  if (paper_)
+  {
+    selectGroups(this->elementGroups(), selection);
+  }
+}
+
+void BlendedField::sumControlled(const BlendSelection& selection, PointBatch points, double* value,
+  const VectorBatch* gradient) const
+{
+  if (paper_)
+  {
+    paper_->largest(selection, whole_, points, value, gradient);
+  }
+  else
+  {
+    sumBlends(this->groups(), selection, points, value, gradient);
+  }
+}
+
+void BlendedField::ownSum(
+  std::int32_t group, PointBatch points, double* value, const VectorBatch* gradient) const
+{
+  paper_->evaluate(group, this->kernel(), points, value, gradient);
+  if (this->kernel().kind != KernelKind::Cauchy)
+  {
+    return;
+  }
+  for (std::size_t k = 0; k < points.size; ++k)
+  {
+    if (value[k] > 2.0 * kFadeEnd)
+    {
+      continue;
+    }
+    if (gradient)
+    {
+      gradient->set(k, fadedSlope(value[k]) * (*gradient)[k]);
+    }
+    value[k] = faded(value[k]);
   }
 }
 
@@ -233,7 +272,7 @@ void BlendedField::addField(const BlendSelection* selection, PointBatch points, 
   }
   else
   {
-    sumBlends(this->groups(), *selection, points, value.data(), nullptr);
+    this->sumControlled(*selection, points, value.data(), nullptr);
   }
   for (std::size_t k = 0; k < points.size; ++k)
   {
@@ -273,7 +312,7 @@ void BlendedField::addFieldAndGradient(
   }
   else
   {
-    sumBlends(this->groups(), *selection, points, own.value(), &gradient);
+    this->sumControlled(*selection, points, own.value(), &gradient);
   }
   for (std::size_t k = 0; k < points.size; ++k)
   {
@@ -288,10 +327,6 @@ void BlendedField::addFieldAndGradient(
 // f_j add up to F.
 double BlendedField::mixedSlope(const BlendSelection& selection, const Box3& box) const
 {
-  if (control_.kind == BlendingKind::Paper)
-  {
-    return this->paperSlope(selection, box);
-  }
   const double farthest = BlendShare(control_).farthest();
   if (selection.units.empty())
   {
@@ -306,6 +341,10 @@ double BlendedField::mixedSlope(const BlendSelection& selection, const Box3& box
     whole_.addBounds(selection.elementsOf(unit), box, bounds[unit]);
     slope += bounds[unit].slope;
   }
+  if (paper_)
+  {
+    return paper_->slope(selection, bounds);
+  }
   double distance = 0.0;
   for (const BlendSelection::Pair& pair : selection.apart)
   {
@@ -319,43 +358,6 @@ double BlendedField::mixedSlope(const BlendSelection& selection, const Box3& box
   return distance > 0.0 ? (1.0 + BlendShare::kSteepest * distance) * slope : 0.0;
 }
 
-// Distances are at most 1, and a neighbour's field counts no more than that of i.
-double BlendedField::paperSlope(const BlendSelection& selection, const Box3& box) const
-{
-  GroupNumbers numbers(places_.neighbours.size());
-  std::vector<FieldBounds> bounds;
-  const auto add = [&](const auto* element, std::int32_t group)
-  {
-    bounds.resize(std::max(bounds.size(), numbers.add(group) + 1));
-    whole_.addBounds(spansOf(&element), box, bounds[numbers.add(group)]);
-  };
-  for (const SegmentElement* segment : selection.all.segments)
-  {
-    add(segment, segmentGroups_[whole_.index(segment)]);
-  }
-  for (const TriangleElement* triangle : selection.all.triangles)
-  {
-    add(triangle, triangleGroups_[whole_.index(triangle)]);
-  }
-  double most = 0.0;
-  for (std::size_t number = 0; number < bounds.size(); ++number)
-  {
-    double slope = bounds[number].slope;
-    for (const std::int32_t other :
-      places_.neighbours[static_cast<std::size_t>(numbers.group(number))])
-    {
-      if (numbers.find(other) >= 0)
-      {
-        const FieldBounds& of = bounds[static_cast<std::size_t>(numbers.find(other))];
-        slope +=
-          std::max(bounds[number].slope, of.slope) + BlendShare::kSteepest * bounds[number].slope;
-      }
-    }
-    most = std::max(most, slope);
-  }
-  return most;
-}
-
 Interval BlendedField::mixedRange(const BlendSelection& selection, const Box3& box) const
 {
   const Interval sum = whole_.range(selection.all, box);
@@ -366,7 +368,7 @@ Interval BlendedField::mixedRange(const BlendSelection& selection, const Box3& b
   }
   const Vec3 p = box.center();
   double center;
-  sumBlends(this->groups(), selection, { &p.x(), &p.y(), &p.z(), 1 }, &center, nullptr);
+  this->sumControlled(selection, { &p.x(), &p.y(), &p.z(), 1 }, &center, nullptr);
   const double most = 0.5 * slope * box.diagonal().norm();
   const double rounding = 1e-13 * (1.0 + sum.max);
   return { std::max(0.0, center - most - rounding), std::min(sum.max, center + most + rounding) };

@@ -4,6 +4,7 @@
 #include "core/convolution/BlendGroups.h"
 #include "core/convolution/BlendSelection.h"
 #include "core/convolution/GroupedElements.h"
+#include "core/convolution/PaperSums.h"
 
 #include <memory>
 #include <vector>
@@ -48,6 +49,11 @@ public:
     const BlendSelection* selection, PointBatch points, double* sum, VectorBatch gradientSum) const;
   ///@}
 
+  /// What G_i of one group alone would make of the field, for points that are known to belong to
+  /// it (PaperSums.h). Overwrites `value`, and `gradient` unless null. \pre BlendingKind::Paper.
+  void ownSum(
+    std::int32_t group, PointBatch points, double* value, const VectorBatch* gradient) const;
+
   /// Bounds of the field in a box. \pre the selection is that of the box or of a larger one.
   Interval range(const BlendSelection& selection, const Box3& box) const;
 
@@ -55,20 +61,26 @@ private:
   template <typename Body>
   void forCompactParts(PointBatch points, Body&& body) const;
 
-  BlendGroups groups() const;
+  ElementGroups elementGroups() const;
+  BlendGroups groups() const; ///< where neighbours blend
+  void sumControlled(const BlendSelection& selection, PointBatch points, double* value,
+    const VectorBatch* gradient) const;
   Interval mixedRange(const BlendSelection& selection, const Box3& box) const;
   double mixedSlope(const BlendSelection& selection, const Box3& box) const;
-  double paperSlope(const BlendSelection& selection, const Box3& box) const;
 
   BlendingControl control_;
   ConvolutionField whole_;
   double partSize_; ///< how far apart points may be that are asked for together
   std::vector<std::int32_t> segmentGroups_;
   std::vector<std::int32_t> triangleGroups_;
+  std::size_t groupCount_;
 
+  // Where neighbours blend.
   BlendPieces places_;                             ///< without its elements: those are in pieces_
-  std::unique_ptr<const ConvolutionField> pieces_; ///< null when everything blends
+  std::unique_ptr<const ConvolutionField> pieces_; ///< otherwise null
   std::vector<FarGroup> farGroups_;
+
+  std::unique_ptr<const PaperSums> paper_; ///< where they blend as in [SUB]; otherwise null
 };
 
 } // namespace hybridtree

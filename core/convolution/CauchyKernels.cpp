@@ -6,8 +6,7 @@
 #define HWY_TARGET_INCLUDE "core/convolution/CauchyKernels.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target, as Highway wants it.
-#include "core/convolution/ConvolutionKernels-inl.h"
-#include <hwy/contrib/math/math-inl.h>
+#include "core/convolution/ElementSums-inl.h"
 
 // With 1 - d^2/R^2 = q - y^2 the kernel is 1 / (a + 4 y^2)^2, a = 5 - 4 q >= 1.
 HWY_BEFORE_NAMESPACE();
@@ -22,19 +21,26 @@ struct CauchyLine
   V first, second;         // 1 / B at both ends
   V single, twice, thrice; // integrals of 1 / B, 1 / B^2, 1 / B^3
 
+  /// \pre a >= 1; low <= high.
   HWY_INLINE CauchyLine(V a, V low, V high)
   {
-    const D d;
-    const V one = set(1.0);
     const V four = set(4.0);
-    const V root = hn::Div(one, hn::Sqrt(a));
-    const V inverse = hn::Mul(root, root);
-    const V half = hn::Mul(set(0.5), root);
-    first = hn::Div(one, hn::MulAdd(hn::Mul(four, low), low, a));
-    second = hn::Div(one, hn::MulAdd(hn::Mul(four, high), high, a));
-    const V twiceRoot = hn::Add(root, root);
-    single = hn::Mul(
-      half, hn::Sub(hn::Atan(d, hn::Mul(high, twiceRoot)), hn::Atan(d, hn::Mul(low, twiceRoot))));
+    // One division for three; so far away that their product ends all is 0 in any case.
+    const V farthest = set(1e90);
+    const V middle = hn::Min(a, farthest);
+    const V atLow = hn::Min(hn::MulAdd(hn::Mul(four, low), low, a), farthest);
+    const V atHigh = hn::Min(hn::MulAdd(hn::Mul(four, high), high, a), farthest);
+    const V product = hn::Mul(atLow, atHigh);
+    const V inverses = hn::Div(set(1.0), hn::Mul(product, middle));
+    const V inverse = hn::Mul(inverses, product);
+    first = hn::Mul(inverses, hn::Mul(atHigh, middle));
+    second = hn::Mul(inverses, hn::Mul(atLow, middle));
+    // (atan(high s) - atan(low s)) / s, s = 2 / sqrt(a).
+    const V root = hn::Sqrt(middle);
+    const V half = hn::Mul(set(0.5), hn::Mul(root, inverse));
+    single = hn::Mul(half,
+      angleOf(hn::MulAdd(hn::Mul(four, low), high, middle),
+        hn::Mul(hn::Add(root, root), hn::Max(hn::Sub(high, low), hn::Zero(D())))));
     const V ends = hn::MulSub(high, second, hn::Mul(low, first));
     twice = hn::Mul(hn::Mul(set(0.5), inverse), hn::Add(ends, single));
     const V squares =
@@ -131,7 +137,8 @@ private:
 const ConvolutionKernels* cauchyKernels()
 {
   return kernelsOf<ElementSums<SegmentElement, CauchySegmentIntegral>,
-    ElementSums<TriangleElement, CauchyTriangleIntegral>>();
+    ElementSums<TriangleElement, CauchyTriangleIntegral>,
+    SharedSums<CauchySegmentIntegral, CauchyTriangleIntegral>>();
 }
 
 } // namespace HWY_NAMESPACE

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/convolution/ConvolutionKernels.h"
 
+#include <type_traits>
+
 // Compiled once per instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/convolution/CompactKernels.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target, as Highway wants it.
-#include "core/convolution/ConvolutionKernels-inl.h"
-#include <hwy/contrib/math/math-inl.h>
+#include "core/convolution/ElementSums-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace hybridtree
@@ -162,23 +163,51 @@ struct CompactTriangleIntegral
     return sums;
   }
 
-  // The angle at the origin from `clipped` to `end`, both on the same side of the foot.
-  static HWY_INLINE V angle(const Edge& edge, V end, V clipped)
+  // The angles at the origin that parts of edges outside of the disc cover, as the argument of a
+  // product of complex numbers: one angle() for all.
+  struct OuterAngle
   {
-    const V tiny = set(1e-300);
-    const V beside = hn::MulAdd(edge.distance, edge.distance, hn::MulAdd(end, clipped, tiny));
-    return hn::Atan(D(), hn::Div(hn::Mul(edge.distance, hn::Sub(end, clipped)), beside));
-  }
+    V x, y;
 
-  static HWY_INLINE V outerAngle(const Edge& edge)
-  {
-    const auto outside = hn::Or(hn::Ne(edge.start, edge.low), hn::Ne(edge.end, edge.high));
-    if (hn::AllFalse(D(), outside))
+    HWY_INLINE OuterAngle() : x(set(1.0)), y(hn::Zero(D())) {}
+
+    HWY_INLINE void add(const Edge& edge)
     {
-      return hn::Zero(D());
+      this->turn(edge.distance, edge.end, edge.high);
+      this->turn(edge.distance, edge.low, edge.start);
     }
-    return hn::Sub(angle(edge, edge.end, edge.high), angle(edge, edge.start, edge.low));
-  }
+
+    // Together the angle of the circle's arcs inside of the triangle, so none below 0. \param
+    // isWhole where that is the whole circle: elsewhere 1e-8 of it are missing at least.
+    template <class M>
+    HWY_INLINE V sum(M isWhole) const
+    {
+      const V zero = hn::Zero(D());
+      if (hn::AllTrue(D(), hn::And(hn::Eq(x, set(1.0)), hn::Eq(y, zero))))
+      {
+        return zero; // all of the triangle is in the disc
+      }
+      const V full = set(4.0 * kHalfPi);
+      const V angle = angleOf(x, hn::Abs(y));
+      V sum = hn::IfThenElse(hn::Lt(y, zero), hn::Sub(full, angle), angle);
+      sum = hn::IfThenElseZero(hn::Lt(sum, set(4.0 * kHalfPi - 1e-9)), sum);
+      return hn::IfThenElse(isWhole, full, sum);
+    }
+
+  private:
+    // From `from` to `to` on the same side of the foot of the origin, at most a quarter.
+    HWY_INLINE void turn(V distance, V to, V from)
+    {
+      const auto isOutside = hn::Ne(to, from);
+      const V one = set(1.0);
+      const V cosine =
+        hn::IfThenElse(isOutside, hn::MulAdd(distance, distance, hn::Mul(to, from)), one);
+      const V sine = hn::Mul(distance, hn::Sub(to, from));
+      const V before = x;
+      x = hn::MulSub(before, cosine, hn::Mul(y, sine));
+      y = hn::MulAdd(before, sine, hn::Mul(y, cosine));
+    }
+  };
 
   // \param slopes null, or derivatives by the corners to be written.
   HWY_INLINE bool integrate(TriangleView& view, const TriangleElement& element, Result& result,
@@ -211,6 +240,7 @@ struct CompactTriangleIntegral
     const V fullPower = hn::Mul(lowerPower, q);
     V sum = zero;
     V lowerSum = zero;
+    OuterAngle outer;
     if (slopes)
     {
       slopes->u = slopes->v = { zero, zero, zero };
@@ -219,21 +249,23 @@ struct CompactTriangleIntegral
     {
       const Edge& edge = edges[k];
       const EdgeSums sums = this->integrateEdge(edge, q);
-      const V outer = outerAngle(edge);
-      sum = hn::Add(sum, hn::MulAdd(edge.distance, sums.sum, hn::Mul(fullPower, outer)));
+      outer.add(edge);
+      sum = hn::MulAdd(edge.distance, sums.sum, sum);
       if (!slopes)
       {
         continue;
       }
-      lowerSum =
-        hn::Add(lowerSum, hn::MulAdd(edge.distance, sums.lowerSum, hn::Mul(lowerPower, outer)));
+      lowerSum = hn::MulAdd(edge.distance, sums.lowerSum, lowerSum);
       edge.addSlopes(k, hn::IfThenElseZero(reached, sums.zeroth),
         hn::IfThenElseZero(reached, sums.first), *slopes);
     }
+    const V arcs = outer.sum(hn::Ge(nearest, root));
+    sum = hn::MulAdd(fullPower, arcs, sum);
     result.integral =
       hn::IfThenElseZero(reached, hn::Max(zero, hn::Mul(sum, set(0.5 / (exponent + 1)))));
     if (slopes)
     {
+      lowerSum = hn::MulAdd(lowerPower, arcs, lowerSum);
       result.lower =
         hn::IfThenElseZero(reached, hn::Max(zero, hn::Mul(lowerSum, set(0.5 / exponent))));
     }
@@ -265,46 +297,64 @@ struct CompactTriangleIntegral
   }
 };
 
-// Calls with the exponent as a constant where it is a common one.
+// use() with the exponent as a constant where it is a common one.
+template <typename Use>
+void withExponent(const ConvolutionKernel& kernel, const Use& use)
+{
+  switch (kernel.exponent)
+  {
+    case 2:
+      use(std::integral_constant<int, 2>());
+      break;
+    case 3:
+      use(std::integral_constant<int, 3>());
+      break;
+    default:
+      use(std::integral_constant<int, 0>());
+  }
+}
+
 template <class Element, template <int> class Integral>
 struct CompactSums
 {
   static void add(
     ElementSpan<Element> span, const ConvolutionKernel& kernel, PointBatch points, double* sum)
   {
-    switch (kernel.exponent)
-    {
-      case 2:
-        ElementSums<Element, Integral<2>>::add(span, kernel, points, sum);
-        break;
-      case 3:
-        ElementSums<Element, Integral<3>>::add(span, kernel, points, sum);
-        break;
-      default:
-        ElementSums<Element, Integral<0>>::add(span, kernel, points, sum);
-    }
+    withExponent(
+      kernel, [&](auto n) { ElementSums<Element, Integral<n()>>::add(span, kernel, points, sum); });
   }
   static void addWithGradient(ElementSpan<Element> span, const ConvolutionKernel& kernel,
     PointBatch points, double* sum, VectorBatch gradient)
   {
-    switch (kernel.exponent)
-    {
-      case 2:
-        ElementSums<Element, Integral<2>>::addWithGradient(span, kernel, points, sum, gradient);
-        break;
-      case 3:
-        ElementSums<Element, Integral<3>>::addWithGradient(span, kernel, points, sum, gradient);
-        break;
-      default:
-        ElementSums<Element, Integral<0>>::addWithGradient(span, kernel, points, sum, gradient);
-    }
+    withExponent(kernel,
+      [&](auto n) {
+        ElementSums<Element, Integral<n()>>::addWithGradient(span, kernel, points, sum, gradient);
+      });
+  }
+};
+
+struct CompactSharedSums
+{
+  template <int Exponent>
+  using Sums = SharedSums<CompactSegmentIntegral<Exponent>, CompactTriangleIntegral<Exponent>>;
+
+  static void add(const std::vector<SharedElements>& parts, const ConvolutionKernel& kernel,
+    PointBatch points, double* sum)
+  {
+    withExponent(kernel, [&](auto n) { Sums<n()>::add(parts, kernel, points, sum); });
+  }
+  static void addWithGradient(const std::vector<SharedElements>& parts,
+    const ConvolutionKernel& kernel, PointBatch points, double* sum, VectorBatch gradient)
+  {
+    withExponent(
+      kernel, [&](auto n) { Sums<n()>::addWithGradient(parts, kernel, points, sum, gradient); });
   }
 };
 
 const ConvolutionKernels* compactKernels()
 {
   return kernelsOf<CompactSums<SegmentElement, CompactSegmentIntegral>,
-    CompactSums<TriangleElement, CompactTriangleIntegral>>();
+    CompactSums<TriangleElement, CompactTriangleIntegral>, CompactSharedSums>();
 }
 
 } // namespace HWY_NAMESPACE

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The geometry of elements in the coordinates in which kernels are polynomials (see
-// ConvolutionElement.h), and the loops over elements. Included once per instruction set; so no
-// #pragma once.
+// ConvolutionElement.h). Included once per instruction set; so no #pragma once.
 #if defined(HYBRIDTREE_CONVOLUTION_KERNELS) == defined(HWY_TARGET_TOGGLE)
 #ifdef HYBRIDTREE_CONVOLUTION_KERNELS
 #undef HYBRIDTREE_CONVOLUTION_KERNELS
@@ -22,6 +21,37 @@ namespace HWY_NAMESPACE
 
 // Keeps 1 / (R_p^2 + slope^2 h^2) finite at the one point where it is 0.
 constexpr double kSmallestSquare = 1e-280;
+constexpr double kHalfPi = 1.57079632679489661923;
+
+// The angle of (x, y) to the first axis, y >= 0: 0 to pi, as atan2(y, x) within 3e-16. One
+// division, where differences of arcus tangents take one for each of these and more within them.
+HWY_INLINE V angleOf(V x, V y)
+{
+  // atan(t) / t on [0, 1] as a polynomial in t^2: Chebyshev's interpolation, error 3e-17. Even and
+  // odd powers by themselves: half as long a chain.
+  constexpr double kEven[] = { 1.0, 0.1999999999964796, 0.11111110578002083, 0.07692198997458294,
+    0.058768281144872724, 0.04668745304848529, 0.03387126702700675, 0.01671959606350739,
+    0.003751138483965141, 0.00021423810738603946 };
+  constexpr double kOdd[] = { -0.333333333333307, -0.14285714266926733, -0.09090899793217341,
+    -0.06665764910689723, -0.052374234719188166, -0.040811247503178855, -0.02556862364437174,
+    -0.00899108054265826, -0.0011252544302234645, -1.93423475928923e-05 };
+  const V across = hn::Abs(x);
+  const auto isSteep = hn::Gt(y, across);
+  const V larger = hn::Max(hn::Max(y, across), set(1e-300));
+  const V t = hn::Div(hn::Min(y, across), larger);
+  const V square = hn::Mul(t, t);
+  const V fourth = hn::Mul(square, square);
+  V even = set(kEven[9]);
+  V odd = set(kOdd[9]);
+  for (int k = 8; k >= 0; --k)
+  {
+    even = hn::MulAdd(even, fourth, set(kEven[k]));
+    odd = hn::MulAdd(odd, fourth, set(kOdd[k]));
+  }
+  V angle = hn::Mul(t, hn::MulAdd(odd, square, even));
+  angle = hn::IfThenElse(isSteep, hn::Sub(set(kHalfPi), angle), angle);
+  return hn::IfThenElse(hn::Lt(x, hn::Zero(D())), hn::Sub(set(2.0 * kHalfPi), angle), angle);
+}
 
 // A point seen from the line of a segment: 1 - d^2/R^2 = q - y^2 along it, y from y0 to y1.
 struct SegmentView
@@ -261,92 +291,6 @@ HWY_INLINE void addTriangleGradient(const TriangleElement& element, const Triang
   gx = hn::Add(gx, dot(axes.row(0).transpose(), alongSlope, acrossSlope, heightSlope));
   gy = hn::Add(gy, dot(axes.row(1).transpose(), alongSlope, acrossSlope, heightSlope));
   gz = hn::Add(gz, dot(axes.row(2).transpose(), alongSlope, acrossSlope, heightSlope));
-}
-
-// Loop bodies for forEachVector(). Integral has
-// - void add(const Element&, V x, V y, V z, V& value) const,
-// - void addWithGradient(const Element&, V x, V y, V z, V& value, V& gx, V& gy, V& gz) const,
-// and the amplitude, by which sums are multiplied in the end.
-template <class Element, class Integral>
-struct AddElementsBody
-{
-  ElementSpan<Element> span;
-  Integral integral;
-  double amplitude;
-
-  HWY_INLINE void operator()(
-    const double* x, const double* y, const double* z, const std::array<double*, 1>& out) const
-  {
-    const D d;
-    V value = hn::Zero(d);
-    for (std::size_t k = 0; k < span.count; ++k)
-    {
-      integral.add(*span.elements[k], hn::LoadU(d, x), hn::LoadU(d, y), hn::LoadU(d, z), value);
-    }
-    hn::StoreU(hn::MulAdd(set(amplitude), value, hn::LoadU(d, out[0])), d, out[0]);
-  }
-};
-
-template <class Element, class Integral>
-struct AddElementsWithGradientBody
-{
-  ElementSpan<Element> span;
-  Integral integral;
-  double amplitude;
-
-  HWY_INLINE void operator()(
-    const double* x, const double* y, const double* z, const std::array<double*, 4>& out) const
-  {
-    const D d;
-    V sum[4] = { hn::Zero(d), hn::Zero(d), hn::Zero(d), hn::Zero(d) };
-    for (std::size_t k = 0; k < span.count; ++k)
-    {
-      integral.addWithGradient(*span.elements[k], hn::LoadU(d, x), hn::LoadU(d, y), hn::LoadU(d, z),
-        sum[0], sum[1], sum[2], sum[3]);
-    }
-    for (std::size_t k = 0; k < 4; ++k)
-    {
-      hn::StoreU(hn::MulAdd(set(amplitude), sum[k], hn::LoadU(d, out[k])), d, out[k]);
-    }
-  }
-};
-
-inline double amplitudeOf(const ConvolutionKernel& kernel, const SegmentElement*)
-{
-  return segmentAmplitude(kernel);
-}
-
-inline double amplitudeOf(const ConvolutionKernel& kernel, const TriangleElement*)
-{
-  return triangleAmplitude(kernel);
-}
-
-// Two of the functions of a ConvolutionKernels.
-template <class Element, class Integral>
-struct ElementSums
-{
-  static void add(
-    ElementSpan<Element> span, const ConvolutionKernel& kernel, PointBatch points, double* sum)
-  {
-    const double amplitude = amplitudeOf(kernel, static_cast<const Element*>(nullptr));
-    forEachVector<1>(
-      points, { sum }, AddElementsBody<Element, Integral>{ span, Integral(kernel), amplitude });
-  }
-  static void addWithGradient(ElementSpan<Element> span, const ConvolutionKernel& kernel,
-    PointBatch points, double* sum, VectorBatch gradient)
-  {
-    const double amplitude = amplitudeOf(kernel, static_cast<const Element*>(nullptr));
-    forEachVector<4>(points, { sum, gradient.x, gradient.y, gradient.z },
-      AddElementsWithGradientBody<Element, Integral>{ span, Integral(kernel), amplitude });
-  }
-};
-
-template <class Segments, class Triangles>
-const ConvolutionKernels* kernelsOf()
-{
-  static const ConvolutionKernels kernels = { &Segments::add, &Segments::addWithGradient,
-    &Triangles::add, &Triangles::addWithGradient };
-  return &kernels;
 }
 
 } // namespace HWY_NAMESPACE

@@ -5,6 +5,7 @@
 #include "core/convolution/ConvolutionKernel.h"
 
 #include <cstddef>
+#include <vector>
 
 namespace hybridtree
 {
@@ -15,6 +16,16 @@ struct ElementSpan
 {
   const Element* const* elements = nullptr;
   std::size_t count = 0;
+};
+
+/// Elements that count share(slope . p + offset) at p, where share falls from 1 at 0 to 0 at 1 as
+/// BlendShare does.
+struct SharedElements
+{
+  ElementSpan<SegmentElement> segments;
+  ElementSpan<TriangleElement> triangles;
+  Vec3 slope;
+  double offset;
 };
 
 /// Batched sums of closed-form integrals over elements. A value depends on its point alone, not on
@@ -29,6 +40,10 @@ struct ConvolutionKernels
   void (*addTriangles)(
     ElementSpan<TriangleElement>, const ConvolutionKernel&, PointBatch, double* sum);
   void (*addTrianglesWithGradient)(ElementSpan<TriangleElement>, const ConvolutionKernel&,
+    PointBatch, double* sum, VectorBatch gradientSum);
+  void (*addShared)(
+    const std::vector<SharedElements>&, const ConvolutionKernel&, PointBatch, double* sum);
+  void (*addSharedWithGradient)(const std::vector<SharedElements>&, const ConvolutionKernel&,
     PointBatch, double* sum, VectorBatch gradientSum);
 };
 

@@ -16,8 +16,6 @@ struct GroupedElement
 {
   std::array<std::int32_t, N> corners; ///< indices of points
   std::array<double, N> reaches;       ///< R at the corners, as the field takes it
-  /// Per corner: its weights of the corners of the group's coarse element; they sum up to 1.
-  std::array<std::array<double, 3>, N> weights;
   std::int32_t group;
 };
 

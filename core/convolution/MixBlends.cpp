@@ -51,11 +51,10 @@ void mixNear(
     }
   }
   BlendMixture mixture(fields, bounds, nullptr);
-  const bool keepsSums = pieces.groups().isLocal();
   std::vector<std::size_t> changed;
   for (std::size_t k = 0; k < points.size; ++k)
   {
-    if (!keepsSums || mixture.best(k) < sum[k])
+    if (mixture.best(k) < sum[k])
     {
       value[k] = mixture.best(k);
       changed.push_back(k);
@@ -79,14 +78,12 @@ public:
     {
       bounds_[group] = this->mostInBox(groups.farGroups[group], box);
     }
-    const bool isPaper = groups.control.kind == BlendingKind::Paper;
     for (std::size_t center = 0; center < groups.size(); ++center)
     {
       sums_[center] = bounds_[center];
       for (const std::int32_t other : groups.places.neighbours[center])
       {
-        const double bound = bounds_[static_cast<std::size_t>(other)];
-        sums_[center] += isPaper ? std::min(bound, bounds_[center]) : bound;
+        sums_[center] += bounds_[static_cast<std::size_t>(other)];
       }
     }
   }

@@ -6,6 +6,7 @@
 #include "core/mesh/Remesh.h"
 #include "core/nodes/LatticeMesh.h"
 #include "core/nodes/MappedMesh.h"
+#include "core/nodes/SkeletonElementFields.h"
 #include "core/nodes/SurfaceProjection.h"
 #include "core/subdivision/SkeletonMesh.h"
 
@@ -67,12 +68,13 @@ double reachOf(const SubdivisionSkeletonOptions& options, const Parameters& para
   return options.kernel.influenceRatio * (controlled ? 3.0 : 1.0) * support;
 }
 
-SkeletonField fieldOf(const SubdivisionSkeleton& leaf)
+/// \param elements null, or the same field near single elements.
+SkeletonField fieldOf(const SubdivisionSkeleton& leaf, const ElementFields* elements)
 {
   const SubdivisionSkeletonOptions& options = leaf.options();
   const Parameters parameters = leaf.parameters();
   return { leaf.coarse(), leaf.refined(), options.level, leaf, reachOf(options, parameters),
-    optionsKey(parameters) };
+    optionsKey(parameters), elements };
 }
 
 constexpr std::size_t kTogether = 32; // points whose elements are looked for at once
@@ -183,8 +185,9 @@ TriangleMesh subdivisionSkeletonMesh(const SubdivisionSkeleton& leaf, double edg
   SkeletonMeshOptions options;
   options.edgeLength = edgeLength;
   options.refinement = leaf.options().refinement;
-  std::optional<StitchedMesh> made =
-    skeletonMesh(fieldOf(leaf), options, &sharedCache(), ProgressPart(progress, 0.0, 0.8));
+  const SkeletonElementFields elements(leaf, SkeletonElementFields::Sums::Largest);
+  std::optional<StitchedMesh> made = skeletonMesh(
+    fieldOf(leaf, &elements), options, &sharedCache(), ProgressPart(progress, 0.0, 0.8));
   if (made && made->mesh.triangles.empty())
   {
     warning = "The skeleton has no surface: it is too short beside its radius, or too thin for the "
@@ -216,7 +219,8 @@ TriangleMesh subdivisionSkeletonPreview(const SubdivisionSkeleton& leaf, const P
   }
   PieceMeshOptions options;
   options.refinement = leaf.options().refinement;
-  return joinPieces(pieceMeshes(fieldOf(leaf), options, &sharedCache(), progress));
+  const SkeletonElementFields elements(leaf, SkeletonElementFields::Sums::Own);
+  return joinPieces(pieceMeshes(fieldOf(leaf, &elements), options, &sharedCache(), progress));
 }
 
 void nearestPieces(const SubdivisionSkeleton& leaf, PointBatch points, std::int32_t* pieces)

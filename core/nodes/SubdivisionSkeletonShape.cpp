@@ -30,28 +30,11 @@ std::array<double, N> reachesOf(const RefinedSkeleton& skeleton,
   return reaches;
 }
 
-// Weights of the parent's corners.
-std::array<double, 3> weightsAt(double u)
-{
-  return { 1.0 - u, u, 0.0 };
-}
-
-std::array<double, 3> weightsAt(const Eigen::Vector2d& place)
-{
-  return { 1.0 - place[0] - place[1], place[0], place[1] };
-}
-
-template <std::size_t N, typename Places>
+template <std::size_t N>
 GroupedElement<N> child(const RefinedSkeleton& skeleton, const std::array<std::int32_t, N>& corners,
-  const Places& places, std::size_t group, const SubdivisionSkeletonOptions& options)
+  std::size_t group, const SubdivisionSkeletonOptions& options)
 {
-  GroupedElement<N> element{ corners, reachesOf(skeleton, corners, options), {},
-    static_cast<std::int32_t>(group) };
-  for (std::size_t k = 0; k < N; ++k)
-  {
-    element.weights[k] = weightsAt(places[k]);
-  }
-  return element;
+  return { corners, reachesOf(skeleton, corners, options), static_cast<std::int32_t>(group) };
 }
 
 // The children of one coarse element are a group: coarse segments first.
@@ -66,14 +49,13 @@ GroupedElements groupedElements(const SkeletonGraph& coarse, const RefinedSkelet
   }
   for (std::size_t k = 0; k < skeleton.segments.size(); ++k)
   {
-    elements.segments.push_back(child(skeleton, skeleton.segments[k], skeleton.segmentParameters[k],
+    elements.segments.push_back(child(skeleton, skeleton.segments[k],
       static_cast<std::size_t>(skeleton.segmentParents[k]), options));
   }
   for (std::size_t k = 0; k < skeleton.triangles.size(); ++k)
   {
-    elements.triangles.push_back(
-      child(skeleton, skeleton.triangles[k], skeleton.triangleParameters[k],
-        coarse.segments.size() + static_cast<std::size_t>(skeleton.triangleParents[k]), options));
+    elements.triangles.push_back(child(skeleton, skeleton.triangles[k],
+      coarse.segments.size() + static_cast<std::size_t>(skeleton.triangleParents[k]), options));
   }
   for (const SkeletonSegment& ends : coarse.segments)
   {

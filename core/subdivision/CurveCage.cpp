@@ -28,7 +28,7 @@ struct Run
 class Maker
 {
 public:
-  Maker(const CurvePath& path, const FieldSource& field) : path_(path), field_(field) {}
+  Maker(const CurvePath& path, const PlacedField& field) : path_(path), field_(field) {}
 
   PieceCage make()
   {
@@ -44,17 +44,19 @@ private:
   /// ends.
   std::vector<Run> runs() const;
   std::vector<double> sampleLengths() const;
+  PlacedPoint placed(double s) const { return { path_.point(s), path_.element(s) }; }
   double crossing(double inside, double outside) const;
   void addRun(const Run& run);
   std::vector<double> ringLengths(double from, double to, bool round) const;
-  void addAxis(const Vec3& base, const Vec3& direction, double radius);
-  void addRing(const Vec3& base, const Vec3& across, const Vec3& tangent, double radius,
-    double tilt, double turn);
-  void addStrip(std::int32_t ring, std::int32_t next, bool nextIsTurned);
-  void addCap(std::int32_t ring, std::int32_t pole, bool atEnd);
+  void addAxis(double s, const Vec3& direction, double radius);
+  void addRing(
+    double s, const Vec3& across, const Vec3& tangent, double radius, double tilt, double turn);
+  void addStrip(std::int32_t ring, std::int32_t next, bool nextIsTurned, double middle);
+  void addCap(std::int32_t ring, std::int32_t pole, bool atEnd, double s);
+  void setElements(double s) { cage_.elements.resize(cage_.triangles.size(), path_.element(s)); }
 
   const CurvePath& path_;
-  const FieldSource& field_;
+  const PlacedField& field_;
   PieceCage cage_;
 };
 
@@ -79,7 +81,7 @@ double Maker::crossing(double inside, double outside) const
   for (int step = 0; step < 12; ++step)
   {
     const double middle = 0.5 * (inside + outside);
-    (fieldAt(field_, { path_.point(middle) }).front() > kThreshold ? inside : outside) = middle;
+    (fieldAt(field_, { placed(middle) }).front() > kThreshold ? inside : outside) = middle;
   }
   return inside;
 }
@@ -87,10 +89,10 @@ double Maker::crossing(double inside, double outside) const
 std::vector<Run> Maker::runs() const
 {
   const std::vector<double> lengths = sampleLengths();
-  std::vector<Vec3> points;
+  std::vector<PlacedPoint> points;
   for (const double s : lengths)
   {
-    points.push_back(path_.point(s));
+    points.push_back(placed(s));
   }
   const std::vector<double> values = fieldAt(field_, points);
   std::vector<Run> result;
@@ -164,25 +166,28 @@ std::vector<double> Maker::ringLengths(double from, double to, bool round) const
   return result;
 }
 
-void Maker::addAxis(const Vec3& base, const Vec3& direction, double radius)
+void Maker::addAxis(double s, const Vec3& direction, double radius)
 {
-  cage_.axes.push_back({ base, direction, 0.5 * radius, 0.0, kReach * radius, 0.5 * radius });
+  const auto [base, element] = placed(s);
+  cage_.axes.push_back(
+    { base, direction, 0.5 * radius, 0.0, kReach * radius, 0.5 * radius, element });
   cage_.radii.push_back(radius);
 }
 
-void Maker::addRing(const Vec3& base, const Vec3& across, const Vec3& tangent, double radius,
-  double tilt, double turn)
+void Maker::addRing(
+  double s, const Vec3& across, const Vec3& tangent, double radius, double tilt, double turn)
 {
   const Vec3 other = tangent.cross(across);
   for (int k = 0; k < kAround; ++k)
   {
     const double angle = 2.0 * kPi / kAround * (k + turn);
     const Vec3 outward = std::cos(angle) * across + std::sin(angle) * other;
-    addAxis(base, std::cos(tilt) * outward + std::sin(tilt) * tangent, radius);
+    addAxis(s, std::cos(tilt) * outward + std::sin(tilt) * tangent, radius);
   }
 }
 
-void Maker::addStrip(std::int32_t ring, std::int32_t next, bool nextIsTurned)
+/// \param middle between the two.
+void Maker::addStrip(std::int32_t ring, std::int32_t next, bool nextIsTurned, double middle)
 {
   for (int k = 0; k < kAround; ++k)
   {
@@ -202,9 +207,10 @@ void Maker::addStrip(std::int32_t ring, std::int32_t next, bool nextIsTurned)
       cage_.triangles.push_back({ a, b, d });
     }
   }
+  setElements(middle);
 }
 
-void Maker::addCap(std::int32_t ring, std::int32_t pole, bool atEnd)
+void Maker::addCap(std::int32_t ring, std::int32_t pole, bool atEnd, double s)
 {
   for (int k = 0; k < kAround; ++k)
   {
@@ -212,6 +218,7 @@ void Maker::addCap(std::int32_t ring, std::int32_t pole, bool atEnd)
     const std::int32_t b = ring + (k + 1) % kAround;
     cage_.triangles.push_back(atEnd ? Triangle{ a, b, pole } : Triangle{ b, a, pole });
   }
+  setElements(s);
 }
 
 /// Rings along a run, and at its ends caps. Frames are carried along without turning; on a closed
@@ -257,37 +264,38 @@ void Maker::addRun(const Run& run)
   for (std::int32_t k = 0; k < count; ++k)
   {
     const double s = lengths[k];
-    addRing(
-      path_.point(s), across[k], tangents[k], path_.radius(s), 0.0, 0.5 * (k % 2) + twist * k);
+    addRing(s, across[k], tangents[k], path_.radius(s), 0.0, 0.5 * (k % 2) + twist * k);
     if (k > 0)
     {
-      addStrip(begin + (k - 1) * kAround, begin + k * kAround, k % 2 == 1);
+      addStrip(
+        begin + (k - 1) * kAround, begin + k * kAround, k % 2 == 1, 0.5 * (lengths[k - 1] + s));
     }
   }
   if (run.round)
   {
-    addStrip(begin + (count - 1) * kAround, begin, count % 2 == 1);
+    addStrip(
+      begin + (count - 1) * kAround, begin, count % 2 == 1, 0.5 * (lengths.back() + run.end));
     return;
   }
   for (const bool atEnd : { false, true })
   {
     const std::int32_t ring = atEnd ? count - 1 : 0;
     const double outward = atEnd ? 1.0 : -1.0;
-    const Vec3 base = path_.point(lengths[ring]);
+    const double s = lengths[ring];
     const auto tilted = std::int32_t(cage_.axes.size());
-    addRing(base, across[ring], tangents[ring], atEnd ? last : first, outward * 0.25 * kPi,
+    addRing(s, across[ring], tangents[ring], atEnd ? last : first, outward * 0.25 * kPi,
       0.5 * ((ring + 1) % 2) + twist * ring);
-    addAxis(base, outward * tangents[ring], atEnd ? last : first);
+    addAxis(s, outward * tangents[ring], atEnd ? last : first);
     const std::int32_t own = begin + ring * kAround;
-    addStrip(atEnd ? own : tilted, atEnd ? tilted : own, (atEnd ? ring + 1 : ring) % 2 == 1);
-    addCap(tilted, tilted + kAround, atEnd);
+    addStrip(atEnd ? own : tilted, atEnd ? tilted : own, (atEnd ? ring + 1 : ring) % 2 == 1, s);
+    addCap(tilted, tilted + kAround, atEnd, s);
   }
 }
 
 } // namespace
 
 PieceCage curveCage(
-  const CurvePiece& piece, const RefinedSkeleton& refined, int level, const FieldSource& field)
+  const CurvePiece& piece, const RefinedSkeleton& refined, int level, const PlacedField& field)
 {
   const CurvePath path(piece, refined, level);
   return Maker(path, field).make();

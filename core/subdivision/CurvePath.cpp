@@ -26,6 +26,7 @@ CurvePath::CurvePath(const CurvePiece& piece, const RefinedSkeleton& refined, in
     const bool forward = refined.segments[first][0] == piece.points[k];
     for (std::int32_t n = 0; n < parts; ++n)
     {
+      elements_.push_back(piece.segments[k]);
       add(forward ? refined.segments[first + n][1] : refined.segments[first + parts - 1 - n][0]);
     }
   }

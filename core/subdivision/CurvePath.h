@@ -18,6 +18,8 @@ public:
   double length() const { return length_.back(); }
   bool closed() const { return closed_; }
   Vec3 point(double s) const;
+  /// The coarse segment it is on; beyond an end the last.
+  std::int32_t element(double s) const { return elements_[place(s).segment]; }
   double radius(double s) const;
   /// Across the bisecting plane: from `reach` before to `reach` behind.
   Vec3 tangent(double s, double reach) const;
@@ -32,7 +34,8 @@ private:
 
   std::vector<Vec3> points_;
   std::vector<double> radii_;
-  std::vector<double> length_; // up to each point
+  std::vector<std::int32_t> elements_; // coarse segments, per refined one
+  std::vector<double> length_;         // up to each point
   bool closed_;
 };
 

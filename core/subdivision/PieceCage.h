@@ -23,6 +23,7 @@ struct PieceCage
   std::vector<SkeletonAxis> axes; ///< one per vertex; the base is inside
   std::vector<double> radii;      ///< per vertex: of the skeleton there
   std::vector<Triangle> triangles;
+  std::vector<std::int32_t> elements; ///< per triangle: what it surrounds, as SkeletonAxis::element
 };
 
 /// Rings of six axes around a curve, in the planes that bisect it, an average radius apart and
@@ -32,7 +33,7 @@ struct PieceCage
 /// \param refined of the coarse skeleton that the piece is of, \param level times.
 /// \throws TooLarge where the radius is tiny beside the length.
 PieceCage curveCage(
-  const CurvePiece& piece, const RefinedSkeleton& refined, int level, const FieldSource& field);
+  const CurvePiece& piece, const RefinedSkeleton& refined, int level, const PlacedField& field);
 
 /// Both sides of the triangles and a rim along their borders: at each point axes along the normal
 /// and against it, at each border point one outwards. Where the field is too weak at the border the
@@ -40,6 +41,6 @@ PieceCage curveCage(
 /// \param refined as above; the cage has its triangles where they are longer than the radius,
 /// otherwise larger ones, of fewer steps of subdivision.
 PieceCage surfaceCage(
-  const SurfacePiece& piece, const RefinedSkeleton& refined, int level, const FieldSource& field);
+  const SurfacePiece& piece, const RefinedSkeleton& refined, int level, const PlacedField& field);
 
 } // namespace hybridtree

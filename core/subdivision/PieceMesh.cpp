@@ -2,11 +2,11 @@
 #include "core/subdivision/PieceMesh.h"
 
 #include "core/base/Error.h"
+#include "core/subdivision/EdgeMesh.h"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
-#include <unordered_map>
 
 namespace hybridtree
 {
@@ -19,23 +19,15 @@ constexpr double kReach = 0.4;       // of the middle of an edge to the surface,
 constexpr double kOpposite = -0.2;   // cosine between the normals at both ends of an edge that cuts
 constexpr double kNearby = 0.25;     // an axis that is still where it was, in radii
 constexpr double kClearly = 1.00001; // so that rounding does not choose between equal edges
-constexpr std::int32_t kSettled = -1;
-constexpr std::int32_t kToSplit = -2;
 
-using Edge = std::array<std::int32_t, 2>;
-
-std::uint64_t keyOf(std::int32_t a, std::int32_t b)
-{
-  return std::uint64_t(std::uint32_t(std::min(a, b))) << 32 | std::uint32_t(std::max(a, b));
-}
+using Edge = EdgeMesh::Edge;
 
 class Refiner
 {
 public:
-  Refiner(const PieceCage& cage, const FieldSource& field, const PieceMeshOptions& options)
-    : field_(field), options_(options), radii_(cage.radii)
+  Refiner(const PieceCage& cage, const PlacedField& field, const PieceMeshOptions& options)
+    : field_(field), options_(options), radii_(cage.radii), parts_(cage.triangles, cage.elements)
   {
-    mesh_.triangles = cage.triangles;
   }
 
   PieceMesh run(
@@ -45,37 +37,34 @@ public:
     for (int round = 0; round < kMaxRounds && splitEdges(); ++round)
     {
       progress.check();
-      divideTriangles();
+      parts_.divide(mesh_.points);
     }
+    mesh_.triangles = parts_.triangles();
     return std::move(mesh_);
   }
 
 private:
-  std::vector<Vec3> middlesOf(const std::vector<Edge>& edges) const;
-  double lengthOf(std::int32_t a, std::int32_t b) const
-  {
-    return (mesh_.points[b] - mesh_.points[a]).norm();
-  }
+  const Edge& edge(std::int32_t number) const { return parts_.edges()[std::size_t(number)]; }
+  std::vector<PlacedPoint> middlesOf(const std::vector<std::int32_t>& edges) const;
   bool isOnSurface(const Edge& edge) const
   {
-    return mesh_.onSurface[edge[0]] != 0 && mesh_.onSurface[edge[1]] != 0;
+    return mesh_.onSurface[edge.a] != 0 && mesh_.onSurface[edge.b] != 0;
   }
   void placeCage(const PieceCage& cage, const std::vector<SkeletonAxis>& before);
   bool splitEdges();
-  std::vector<Edge> newEdges();
+  std::vector<std::int32_t> newEdges();
   bool isOff(const Edge& edge, double value, double length) const;
-  void addLongestEdges(std::vector<Edge>& split);
-  void addMiddles(const std::vector<Edge>& edges);
+  void addLongestEdges(std::vector<std::int32_t>& split);
+  void addMiddles(const std::vector<std::int32_t>& edges);
   void addPoint(const Vec3& point, const Vec3& normal, bool onSurface);
-  void divideTriangles();
-  void divide(const Triangle& triangle, std::vector<Triangle>& result) const;
-  std::int32_t middle(std::int32_t a, std::int32_t b) const { return middles_.at(keyOf(a, b)); }
 
-  const FieldSource& field_;
+  const PlacedField& field_;
   const PieceMeshOptions& options_;
   PieceMesh mesh_;
   std::vector<double> radii_;
-  std::unordered_map<std::uint64_t, std::int32_t> middles_; // the vertex, or kSettled
+  EdgeMesh parts_;
+  std::vector<double> lengths_; // per edge
+  std::vector<char> isSplit_;   // per edge
 };
 
 void Refiner::addPoint(const Vec3& point, const Vec3& normal, bool onSurface)
@@ -110,27 +99,23 @@ void Refiner::placeCage(const PieceCage& cage, const std::vector<SkeletonAxis>& 
   mesh_.axes = std::move(axes);
 }
 
-std::vector<Edge> Refiner::newEdges()
+/// Those that were not there before.
+std::vector<std::int32_t> Refiner::newEdges()
 {
-  std::vector<Edge> edges;
-  for (const Triangle& triangle : mesh_.triangles)
+  std::vector<std::int32_t> edges;
+  for (std::size_t k = lengths_.size(); k < parts_.edges().size(); ++k)
   {
-    for (int k = 0; k < 3; ++k)
-    {
-      const std::int32_t a = triangle[k];
-      const std::int32_t b = triangle[(k + 1) % 3];
-      if (middles_.try_emplace(keyOf(a, b), kSettled).second)
-      {
-        edges.push_back({ a, b });
-      }
-    }
+    const Edge& edge = parts_.edges()[k];
+    lengths_.push_back((mesh_.points[edge.b] - mesh_.points[edge.a]).norm());
+    edges.push_back(std::int32_t(k));
   }
+  isSplit_.resize(lengths_.size(), 0);
   return edges;
 }
 
 bool Refiner::isOff(const Edge& edge, double value, double length) const
 {
-  const double radius = 0.5 * (radii_[edge[0]] + radii_[edge[1]]);
+  const double radius = 0.5 * (radii_[edge.a] + radii_[edge.b]);
   if (length < kShortest * radius)
   {
     return false;
@@ -144,12 +129,14 @@ bool Refiner::isOff(const Edge& edge, double value, double length) const
   return isLong || std::abs(value - kThreshold) > tolerance;
 }
 
-std::vector<Vec3> Refiner::middlesOf(const std::vector<Edge>& edges) const
+std::vector<PlacedPoint> Refiner::middlesOf(const std::vector<std::int32_t>& edges) const
 {
-  std::vector<Vec3> result;
-  for (const auto& [a, b] : edges)
+  std::vector<PlacedPoint> result;
+  result.reserve(edges.size());
+  for (const std::int32_t number : edges)
   {
-    result.push_back(0.5 * (mesh_.points[a] + mesh_.points[b]));
+    const Edge& of = edge(number);
+    result.push_back({ 0.5 * (mesh_.points[of.a] + mesh_.points[of.b]), of.element });
   }
   return result;
 }
@@ -157,16 +144,16 @@ std::vector<Vec3> Refiner::middlesOf(const std::vector<Edge>& edges) const
 /// \return whether any edge has a new vertex.
 bool Refiner::splitEdges()
 {
-  const std::vector<Edge> edges = newEdges();
+  const std::vector<std::int32_t> edges = newEdges();
   const std::vector<double> value = fieldAt(field_, middlesOf(edges));
-  std::vector<Edge> split;
+  std::vector<std::int32_t> split;
   for (std::size_t k = 0; k < edges.size(); ++k)
   {
-    const auto [a, b] = edges[k];
-    if (isOff(edges[k], value[k], lengthOf(a, b)))
+    const std::int32_t number = edges[k];
+    if (isOff(edge(number), value[k], lengths_[number]))
     {
-      middles_[keyOf(a, b)] = kToSplit;
-      split.push_back(edges[k]);
+      isSplit_[number] = 1;
+      split.push_back(number);
     }
   }
   addLongestEdges(split);
@@ -177,135 +164,59 @@ bool Refiner::splitEdges()
 
 /// Of each triangle with an edge that is split, also the longest: otherwise it would stay, and
 /// splits on both of its sides would come ever nearer to it.
-void Refiner::addLongestEdges(std::vector<Edge>& split)
+void Refiner::addLongestEdges(std::vector<std::int32_t>& split)
 {
-  const auto isSplit = [&](std::int32_t a, std::int32_t b)
-  { return middles_[keyOf(a, b)] == kToSplit; };
   for (std::size_t before = 0; before < split.size();)
   {
     before = split.size();
-    for (const Triangle& triangle : mesh_.triangles)
+    for (const std::array<std::int32_t, 3>& edges : parts_.edgesOf())
     {
-      int longest = 0;
-      double most = 0.0;
-      bool any = false;
-      for (int k = 0; k < 3; ++k)
+      if (!(isSplit_[edges[0]] | isSplit_[edges[1]] | isSplit_[edges[2]]))
       {
-        const std::int32_t a = triangle[k];
-        const std::int32_t b = triangle[(k + 1) % 3];
-        const double length = lengthOf(a, b);
-        longest = length > kClearly * most ? k : longest;
-        most = std::max(most, length);
-        any = any || isSplit(a, b);
+        continue;
       }
-      const Edge edge{ triangle[longest], triangle[(longest + 1) % 3] };
-      if (any && !isSplit(edge[0], edge[1]))
+      std::int32_t longest = edges[0];
+      longest = lengths_[edges[1]] > kClearly * lengths_[longest] ? edges[1] : longest;
+      longest = lengths_[edges[2]] > kClearly * lengths_[longest] ? edges[2] : longest;
+      if (!isSplit_[longest])
       {
-        middles_[keyOf(edge[0], edge[1])] = kToSplit;
-        split.push_back(edge);
+        isSplit_[longest] = 1;
+        split.push_back(longest);
       }
     }
   }
 }
 
-void Refiner::addMiddles(const std::vector<Edge>& edges)
+void Refiner::addMiddles(const std::vector<std::int32_t>& edges)
 {
-  const std::vector<Vec3> middles = middlesOf(edges);
-  std::vector<double> value;
+  const std::vector<PlacedPoint> middles = middlesOf(edges);
   std::vector<Vec3> gradient;
-  fieldAndGradientAt(field_, middles, value, gradient);
+  const std::vector<double> value = fieldAt(field_, middles, &gradient);
   std::vector<SkeletonAxis> axes;
   for (std::size_t k = 0; k < edges.size(); ++k)
   {
-    const auto [a, b] = edges[k];
+    const Edge& of = edge(edges[k]);
     const double steepness = gradient[k].norm();
-    const Vec3 along = mesh_.normals[a] + mesh_.normals[b];
+    const Vec3 along = mesh_.normals[of.a] + mesh_.normals[of.b];
     const Vec3 outward = steepness > 0.0 ? Vec3(-gradient[k] / steepness) : along.normalized();
     // An edge that cuts through a body does not go around it: its middle stays inside.
     const bool cuts = value[k] > kThreshold &&
-      (!isOnSurface(edges[k]) || mesh_.normals[a].dot(mesh_.normals[b]) < kOpposite);
-    const double reach = cuts ? 0.0 : kReach * lengthOf(a, b);
+      (!isOnSurface(of) || mesh_.normals[of.a].dot(mesh_.normals[of.b]) < kOpposite);
+    const double reach = cuts ? 0.0 : kReach * lengths_[edges[k]];
     const double start = steepness > 0.0 ? (value[k] - kThreshold) / steepness : 0.0;
-    axes.push_back({ middles[k], outward, start, -reach, reach, 0.5 * reach });
+    axes.push_back({ middles[k].at, outward, start, -reach, reach, 0.5 * reach, of.element });
   }
   const std::vector<double> found = slideAxes(field_, axes, &gradient);
   for (std::size_t k = 0; k < edges.size(); ++k)
   {
-    const auto [a, b] = edges[k];
+    const Edge of = edge(edges[k]);
     const bool isFound = !std::isnan(found[k]);
-    middles_[keyOf(a, b)] = std::int32_t(mesh_.points.size());
+    parts_.split(edges[k], std::int32_t(mesh_.points.size()));
     const bool steep = isFound && gradient[k].norm() > 0.0;
     addPoint(axes[k].base + (isFound ? found[k] : 0.0) * axes[k].direction,
       steep ? Vec3(-gradient[k].normalized()) : axes[k].direction, isFound);
-    mesh_.bases.push_back(0.5 * (mesh_.bases[a] + mesh_.bases[b]));
-    radii_.push_back(0.5 * (radii_[a] + radii_[b]));
-  }
-}
-
-void Refiner::divideTriangles()
-{
-  std::vector<Triangle> result;
-  result.reserve(2 * mesh_.triangles.size());
-  for (const Triangle& triangle : mesh_.triangles)
-  {
-    divide(triangle, result);
-  }
-  mesh_.triangles = std::move(result);
-}
-
-void Refiner::divide(const Triangle& triangle, std::vector<Triangle>& result) const
-{
-  std::array<std::int32_t, 3> at; // on the edge from a corner to the next
-  int count = 0;
-  for (int k = 0; k < 3; ++k)
-  {
-    at[k] = middle(triangle[k], triangle[(k + 1) % 3]);
-    count += at[k] != kSettled ? 1 : 0;
-  }
-  if (count == 0)
-  {
-    result.push_back(triangle);
-    return;
-  }
-  if (count == 3)
-  {
-    for (int k = 0; k < 3; ++k)
-    {
-      result.push_back({ triangle[k], at[k], at[(k + 2) % 3] });
-    }
-    result.push_back({ at[0], at[1], at[2] });
-    return;
-  }
-  // Turned so that the only edge that is split, or the only one that is not, is the first.
-  int first = 0;
-  while ((at[first] != kSettled) != (count == 1))
-  {
-    ++first;
-  }
-  const std::int32_t a = triangle[first];
-  const std::int32_t b = triangle[(first + 1) % 3];
-  const std::int32_t c = triangle[(first + 2) % 3];
-  if (count == 1)
-  {
-    const std::int32_t ab = at[first];
-    result.push_back({ a, ab, c });
-    result.push_back({ ab, b, c });
-    return;
-  }
-  const std::int32_t bc = at[(first + 1) % 3];
-  const std::int32_t ca = at[(first + 2) % 3];
-  result.push_back({ bc, c, ca });
-  const auto length = [&](std::int32_t p, std::int32_t q)
-  { return (mesh_.points[p] - mesh_.points[q]).squaredNorm(); };
-  if (kClearly * length(a, bc) < length(b, ca))
-  {
-    result.push_back({ a, b, bc });
-    result.push_back({ a, bc, ca });
-  }
-  else
-  {
-    result.push_back({ a, b, ca });
-    result.push_back({ b, bc, ca });
+    mesh_.bases.push_back(0.5 * (mesh_.bases[of.a] + mesh_.bases[of.b]));
+    radii_.push_back(0.5 * (radii_[of.a] + radii_[of.b]));
   }
 }
 
@@ -322,7 +233,7 @@ void requirePieceSize(double vertices)
   }
 }
 
-PieceMesh refineCage(const PieceCage& cage, const FieldSource& field,
+PieceMesh refineCage(const PieceCage& cage, const PlacedField& field,
   const PieceMeshOptions& options, const std::vector<SkeletonAxis>& before,
   const Progress& progress)
 {

@@ -34,13 +34,14 @@ struct PieceMesh
 ///
 /// A triangle is divided by those of its edges that are split, in two, three or four (Figure 11
 /// without the points that would have to be snapped: there are no T-junctions). New vertices go to
-/// the surface along the gradient. Edges shorter than a tenth of the radius are not split, so that
+/// the surface along the gradient, in the field of the element that a triangle at their edge
+/// surrounds. Edges shorter than a tenth of the radius are not split, so that
 /// creases, where parts are united and not blended, end the splitting.
 ///
 /// \param before axes of an earlier mesh of this piece, for a quick start. Those that are elsewhere
 /// now, by more than a quarter of the radius, start anew; so do all when their number differs.
 /// \throws TooLarge where the radius is tiny beside the piece; Cancelled.
-PieceMesh refineCage(const PieceCage& cage, const FieldSource& field,
+PieceMesh refineCage(const PieceCage& cage, const PlacedField& field,
   const PieceMeshOptions& options, const std::vector<SkeletonAxis>& before = {},
   const Progress& progress = Progress::none());
 

@@ -43,6 +43,7 @@ public:
   PieceKeys(const SkeletonField& skeleton, const PieceMeshOptions& options) : skeleton_(skeleton)
   {
     common_.add(skeleton.key);
+    common_.add(std::uint64_t(skeleton.elements != nullptr));
     common_.add(std::uint64_t(skeleton.level));
     common_.add(options.refinement);
     common_.add(options.longestEdge);
@@ -204,6 +205,7 @@ std::vector<PieceMeshPtr> pieceMeshes(const SkeletonField& skeleton,
   const SkeletonPieces pieces = findPieces(skeleton.coarse, SkeletonTopology(skeleton.coarse));
   const std::size_t curves = pieces.curves.size();
   const PieceKeys keys(skeleton, options);
+  const PlacedField field{ skeleton.field, skeleton.elements };
   std::vector<PieceMeshPtr> result(pieces.size());
   parallelFor(pieces.size(), 1,
     [&](std::size_t begin, std::size_t end)
@@ -221,12 +223,11 @@ std::vector<PieceMeshPtr> pieceMeshes(const SkeletonField& skeleton,
           continue;
         }
         const PieceCage cage = isCurve
-          ? curveCage(pieces.curves[k], skeleton.refined, skeleton.level, skeleton.field)
-          : surfaceCage(
-              pieces.surfaces[k - curves], skeleton.refined, skeleton.level, skeleton.field);
+          ? curveCage(pieces.curves[k], skeleton.refined, skeleton.level, field)
+          : surfaceCage(pieces.surfaces[k - curves], skeleton.refined, skeleton.level, field);
         const PieceMeshPtr before = cache ? cache->last(k) : nullptr;
-        result[k] = std::make_shared<PieceMesh>(refineCage(cage, skeleton.field, options,
-          before ? before->axes : std::vector<SkeletonAxis>(), progress));
+        result[k] = std::make_shared<PieceMesh>(refineCage(
+          cage, field, options, before ? before->axes : std::vector<SkeletonAxis>(), progress));
         if (cache)
         {
           cache->insert(key, result[k]);

@@ -24,6 +24,8 @@ struct SkeletonField
   /// Other numbers that the field depends on (kernel, blending, ...), in one. Fields with equal
   /// elements and equal keys must be equal.
   std::uint64_t key = 0;
+  /// What the meshes of pieces follow near single elements; null: `field` everywhere.
+  const ElementFields* elements = nullptr;
 };
 
 using PieceMeshPtr = std::shared_ptr<const PieceMesh>;

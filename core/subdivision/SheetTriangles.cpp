@@ -44,6 +44,7 @@ SheetTriangles atStep(
   const SurfacePiece& piece, const RefinedSkeleton& refined, int level, int step)
 {
   SheetTriangles sheet;
+  const auto coarseSegments = std::int32_t(refined.segments.size() >> level);
   std::map<std::int32_t, std::int32_t> number;
   for (const std::int32_t coarse : piece.triangles)
   {
@@ -63,6 +64,7 @@ SheetTriangles atStep(
         triangle[corner] = found->second;
       }
       sheet.triangles.push_back(triangle);
+      sheet.elements.push_back(coarseSegments + coarse);
     }
   }
   return sheet;
@@ -70,7 +72,7 @@ SheetTriangles atStep(
 
 SheetTriangles halved(const SheetTriangles& coarse)
 {
-  SheetTriangles fine{ coarse.points, coarse.radii, {} };
+  SheetTriangles fine{ coarse.points, coarse.radii, {}, {} };
   std::map<std::array<std::int32_t, 2>, std::int32_t> number;
   const auto middle = [&](std::int32_t a, std::int32_t b)
   {
@@ -83,8 +85,10 @@ SheetTriangles halved(const SheetTriangles& coarse)
     }
     return found->second;
   };
-  for (const auto& [a, b, c] : coarse.triangles)
+  for (std::size_t t = 0; t < coarse.triangles.size(); ++t)
   {
+    const auto& [a, b, c] = coarse.triangles[t];
+    fine.elements.insert(fine.elements.end(), 4, coarse.elements[t]);
     const std::int32_t ab = middle(a, b);
     const std::int32_t bc = middle(b, c);
     const std::int32_t ca = middle(c, a);
@@ -215,7 +219,7 @@ SheetFans findFans(const SheetTriangles& sheet)
       const auto [found, isNew] = number.try_emplace(root.corner, std::int32_t(result.fans.size()));
       if (isNew)
       {
-        result.fans.push_back({ triangle[k] });
+        result.fans.push_back({ triangle[k], sheet.elements[t] });
         count.push_back(0);
       }
       const Vec3 u = (at(k + 1) - at(k)).normalized();

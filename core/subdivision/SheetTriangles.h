@@ -15,6 +15,7 @@ struct SheetTriangles
   std::vector<Vec3> points;
   std::vector<double> radii;
   std::vector<Triangle> triangles;
+  std::vector<std::int32_t> elements; ///< per triangle: the coarse one, as SkeletonAxis::element
 };
 
 /// A surface piece in triangles about as large as the radius: fewer steps of subdivision than
@@ -26,6 +27,7 @@ SheetTriangles sheetOf(const SurfacePiece& piece, const RefinedSkeleton& refined
 struct SheetFan
 {
   std::int32_t point = 0;
+  std::int32_t element = 0; ///< of one of its triangles
   bool atBorder = false;
   Vec3 normal = Vec3::Zero();  ///< unit, by angles; of one of the two sides, chosen for each fan
   Vec3 outward = Vec3::Zero(); ///< unit, in the sheet, away from it; at borders

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace hybridtree
 {
@@ -58,42 +59,45 @@ double next(const SkeletonAxis& axis, Search& search, double f, double slope)
   return inside ? std::min(search.t + move, end) : std::max(search.t - move, end);
 }
 
-void slideBatch(const FieldSource& field, const SkeletonAxis* axes, std::size_t count,
-  double* result, Vec3* gradient)
+// The axes order[0] to order[count - 1], of one element.
+void slideBatch(const PlacedField& field, const std::vector<SkeletonAxis>& all,
+  const std::size_t* order, std::size_t count, double* result, Vec3* gradient)
 {
+  const auto axes = [&](std::size_t k) -> const SkeletonAxis& { return all[order[k]]; };
   Search searches[kBatch];
   std::size_t active[kBatch];
   std::size_t activeCount = count;
   for (std::size_t k = 0; k < count; ++k)
   {
     active[k] = k;
-    searches[k].t = std::clamp(axes[k].start, axes[k].least, axes[k].most);
-    result[k] = kUnknown;
+    searches[k].t = std::clamp(axes(k).start, axes(k).least, axes(k).most);
+    result[order[k]] = kUnknown;
   }
   Batch batch;
   for (int step = 0; step < kMaxSteps && activeCount > 0; ++step)
   {
     for (std::size_t n = 0; n < activeCount; ++n)
     {
-      const SkeletonAxis& axis = axes[active[n]];
+      const SkeletonAxis& axis = axes(active[n]);
       batch.set(n, axis.base + searches[active[n]].t * axis.direction);
     }
-    field.fieldAndGradient(batch.points(activeCount), batch.value, batch.gradient());
+    const VectorBatch slopes = batch.gradient();
+    field.evaluate(axes(0).element, batch.points(activeCount), batch.value, &slopes);
     std::size_t left = 0;
     for (std::size_t n = 0; n < activeCount; ++n)
     {
       const std::size_t k = active[n];
       if (std::abs(batch.value[n] - kThreshold) <= kTolerance)
       {
-        result[k] = searches[k].t;
+        result[order[k]] = searches[k].t;
         if (gradient)
         {
-          gradient[k] = batch.gradient()[n];
+          gradient[order[k]] = batch.gradient()[n];
         }
         continue;
       }
-      const double slope = batch.gradient()[n].dot(axes[k].direction);
-      const double t = next(axes[k], searches[k], batch.value[n], slope);
+      const double slope = batch.gradient()[n].dot(axes(k).direction);
+      const double t = next(axes(k), searches[k], batch.value[n], slope);
       if (!std::isnan(t))
       {
         searches[k].t = t;
@@ -106,65 +110,96 @@ void slideBatch(const FieldSource& field, const SkeletonAxis* axes, std::size_t 
   for (std::size_t n = 0; n < activeCount; ++n)
   {
     const Search& search = searches[active[n]];
-    result[active[n]] =
+    result[order[active[n]]] =
       std::isnan(search.inner) || std::isnan(search.outer) ? kUnknown : search.inner;
+  }
+}
+
+/// body(order, count) for at most kBatch numbers of things at a time, of one element each if these
+/// have fields of their own.
+template <class Thing, typename Body>
+void forBatches(const PlacedField& field, const std::vector<Thing>& things, const Body& body)
+{
+  std::vector<std::size_t> order(things.size());
+  std::iota(order.begin(), order.end(), std::size_t(0));
+  if (field.elements)
+  {
+    std::stable_sort(order.begin(), order.end(),
+      [&](std::size_t a, std::size_t b) { return things[a].element < things[b].element; });
+  }
+  std::size_t end = 0;
+  for (std::size_t begin = 0; begin < order.size(); begin = end)
+  {
+    end = std::min(begin + kBatch, order.size());
+    if (field.elements)
+    {
+      const std::int32_t element = things[order[begin]].element;
+      end = std::size_t(std::find_if(order.begin() + begin, order.begin() + end,
+                          [&](std::size_t k) { return things[k].element != element; }) -
+        order.begin());
+    }
+    body(order.data() + begin, end - begin);
   }
 }
 
 } // namespace
 
 std::vector<double> slideAxes(
-  const FieldSource& field, const std::vector<SkeletonAxis>& axes, std::vector<Vec3>* gradient)
+  const PlacedField& field, const std::vector<SkeletonAxis>& axes, std::vector<Vec3>* gradient)
 {
   std::vector<double> result(axes.size());
   if (gradient)
   {
     gradient->assign(axes.size(), Vec3::Zero());
   }
-  for (std::size_t begin = 0; begin < axes.size(); begin += kBatch)
-  {
-    const std::size_t count = std::min(kBatch, axes.size() - begin);
-    slideBatch(field, axes.data() + begin, count, result.data() + begin,
-      gradient ? gradient->data() + begin : nullptr);
-  }
+  forBatches(field, axes,
+    [&](const std::size_t* order, std::size_t count) {
+      slideBatch(field, axes, order, count, result.data(), gradient ? gradient->data() : nullptr);
+    });
   return result;
 }
 
-std::vector<double> fieldAt(const FieldSource& field, const std::vector<Vec3>& points)
+std::vector<double> fieldAt(
+  const PlacedField& field, const std::vector<PlacedPoint>& points, std::vector<Vec3>* gradient)
 {
   std::vector<double> result(points.size());
-  Batch batch;
-  for (std::size_t begin = 0; begin < points.size(); begin += kBatch)
+  if (gradient)
   {
-    const std::size_t count = std::min(kBatch, points.size() - begin);
-    for (std::size_t k = 0; k < count; ++k)
-    {
-      batch.set(k, points[begin + k]);
-    }
-    field.field(batch.points(count), result.data() + begin);
+    gradient->resize(points.size());
   }
+  Batch batch;
+  const VectorBatch slopes = batch.gradient();
+  forBatches(field, points,
+    [&](const std::size_t* order, std::size_t count)
+    {
+      for (std::size_t k = 0; k < count; ++k)
+      {
+        batch.set(k, points[order[k]].at);
+      }
+      field.evaluate(
+        points[order[0]].element, batch.points(count), batch.value, gradient ? &slopes : nullptr);
+      for (std::size_t k = 0; k < count; ++k)
+      {
+        result[order[k]] = batch.value[k];
+        if (gradient)
+        {
+          (*gradient)[order[k]] = slopes[k];
+        }
+      }
+    });
   return result;
 }
 
-void fieldAndGradientAt(const FieldSource& field, const std::vector<Vec3>& points,
-  std::vector<double>& value, std::vector<Vec3>& gradient)
+std::vector<double> fieldAt(
+  const FieldSource& field, const std::vector<Vec3>& points, std::vector<Vec3>* gradient)
 {
-  value.resize(points.size());
-  gradient.resize(points.size());
-  Batch batch;
-  for (std::size_t begin = 0; begin < points.size(); begin += kBatch)
+  std::vector<PlacedPoint> placed;
+  placed.reserve(points.size());
+  for (const Vec3& point : points)
   {
-    const std::size_t count = std::min(kBatch, points.size() - begin);
-    for (std::size_t k = 0; k < count; ++k)
-    {
-      batch.set(k, points[begin + k]);
-    }
-    field.fieldAndGradient(batch.points(count), value.data() + begin, batch.gradient());
-    for (std::size_t k = 0; k < count; ++k)
-    {
-      gradient[begin + k] = batch.gradient()[k];
-    }
+    placed.push_back({ point, 0 });
   }
+  return fieldAt(PlacedField(field), placed, gradient);
 }
 
 } // namespace hybridtree

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "core/polygonize/FieldSource.h"
+#include "core/subdivision/PlacedField.h"
 
 #include <vector>
 
@@ -16,7 +16,8 @@ struct SkeletonAxis
   double start = 0.0;            ///< t where the search begins: the last known place is best
   double least = 0.0;            ///< of t
   double most = 0.0;             ///< of t
-  double step = 0.0; ///< longest, as long as the surface is not between two known places
+  double step = 0.0;        ///< longest, as long as the surface is not between two known places
+  std::int32_t element = 0; ///< of the coarse skeleton that the vertex belongs to, as PlacedField
 };
 
 /// t on f = T for each axis, not-a-number where none was found between least and most.
@@ -24,16 +25,25 @@ struct SkeletonAxis
 /// Newton's steps, kept within the bracket of an inner and an outer place and halving it where they
 /// leave it; until both are known, outwards from inside and inwards from outside by steps that are
 /// never longer than `step`. |f - T| <= 1e-7 T at the end. All axes go in step, so that the field
-/// is asked in batches; neighbours in the list should be neighbours in space.
+/// is asked in batches, of one element each where there are fields of elements; neighbours in the
+/// list should be neighbours in space.
 /// \param gradient of the field at each place found; null when nobody asks.
-std::vector<double> slideAxes(const FieldSource& field, const std::vector<SkeletonAxis>& axes,
+std::vector<double> slideAxes(const PlacedField& field, const std::vector<SkeletonAxis>& axes,
   std::vector<Vec3>* gradient = nullptr);
 
-/// The field at points, asked in batches.
-std::vector<double> fieldAt(const FieldSource& field, const std::vector<Vec3>& points);
+/// A point, and the element that it belongs to, as SkeletonAxis::element.
+struct PlacedPoint
+{
+  Vec3 at;
+  std::int32_t element;
+};
 
-/// The same, with its gradients.
-void fieldAndGradientAt(const FieldSource& field, const std::vector<Vec3>& points,
-  std::vector<double>& value, std::vector<Vec3>& gradient);
+/// The field at points, asked in batches. \param gradient null when nobody asks.
+std::vector<double> fieldAt(const PlacedField& field, const std::vector<PlacedPoint>& points,
+  std::vector<Vec3>* gradient = nullptr);
+
+/// The whole field, wherever the points are.
+std::vector<double> fieldAt(
+  const FieldSource& field, const std::vector<Vec3>& points, std::vector<Vec3>* gradient = nullptr);
 
 } // namespace hybridtree

@@ -18,7 +18,7 @@ constexpr double kInside = 1.02 * kThreshold; // where axes may begin
 
 /// Where the axes of each fan begin; not finite where the sheet has no inside.
 std::vector<Vec3> findBases(
-  const SheetTriangles& sheet, const SheetFans& fans, const FieldSource& field)
+  const SheetTriangles& sheet, const SheetFans& fans, const PlacedField& field)
 {
   std::vector<Vec3> bases(fans.fans.size());
   std::vector<std::size_t> open;
@@ -29,7 +29,7 @@ std::vector<Vec3> findBases(
   }
   for (int shift = 0; shift <= kMaxShifts && !open.empty(); ++shift)
   {
-    std::vector<Vec3> asked;
+    std::vector<PlacedPoint> asked;
     for (const std::size_t k : open)
     {
       const SheetFan& fan = fans.fans[k];
@@ -37,7 +37,7 @@ std::vector<Vec3> findBases(
       const double length = way.norm();
       const double wanted = shift * kShift * sheet.radii[fan.point];
       bases[k] = sheet.points[fan.point] + std::min(1.0, wanted / length) * way;
-      asked.push_back(bases[k]);
+      asked.push_back({ bases[k], fan.element });
     }
     const std::vector<double> values = fieldAt(field, asked);
     std::vector<std::size_t> stillOpen;
@@ -61,16 +61,19 @@ std::vector<Vec3> findBases(
 bool dropOutside(SheetTriangles& sheet, const SheetFans& fans, const std::vector<Vec3>& bases)
 {
   std::vector<Triangle> kept;
+  std::vector<std::int32_t> elements;
   for (std::size_t t = 0; t < sheet.triangles.size(); ++t)
   {
     const auto& corners = fans.fanOf[t];
     if (std::all_of(corners.begin(), corners.end(), [&](auto k) { return bases[k].allFinite(); }))
     {
       kept.push_back(sheet.triangles[t]);
+      elements.push_back(sheet.elements[t]);
     }
   }
   const bool dropped = kept.size() < sheet.triangles.size();
   sheet.triangles = std::move(kept);
+  sheet.elements = std::move(elements);
   return dropped;
 }
 
@@ -83,12 +86,12 @@ public:
     for (std::size_t k = 0; k < fans.fans.size(); ++k)
     {
       const SheetFan& fan = fans.fans[k];
-      const double radius = sheet.radii[fan.point];
-      vertices_.push_back(
-        { addAxis(bases[k], fan.normal, radius), addAxis(bases[k], -fan.normal, radius), -1 });
+      const auto add = [&](const Vec3& direction)
+      { return addAxis(bases[k], direction, sheet.radii[fan.point], fan.element); };
+      vertices_.push_back({ add(fan.normal), add(-fan.normal), -1 });
       if (fan.atBorder)
       {
-        vertices_.back().rim = addAxis(bases[k], fan.outward, radius);
+        vertices_.back().rim = add(fan.outward);
       }
     }
   }
@@ -99,6 +102,7 @@ public:
     {
       cage_.triangles.push_back({ above(t, 0), above(t, 1), above(t, 2) });
       cage_.triangles.push_back({ below(t, 0), below(t, 2), below(t, 1) });
+      cage_.elements.resize(cage_.triangles.size(), sheet_.elements[t]);
     }
     for (const auto& [t, begin] : fans_.borders)
     {
@@ -109,6 +113,7 @@ public:
       cage_.triangles.push_back({ above(t, end), rimBegin, rimEnd });
       cage_.triangles.push_back({ below(t, begin), below(t, end), rimEnd });
       cage_.triangles.push_back({ below(t, begin), rimEnd, rimBegin });
+      cage_.elements.resize(cage_.triangles.size(), sheet_.elements[t]);
     }
     return std::move(cage_);
   }
@@ -121,9 +126,10 @@ private:
     std::int32_t rim;
   };
 
-  std::int32_t addAxis(const Vec3& base, const Vec3& direction, double radius)
+  std::int32_t addAxis(const Vec3& base, const Vec3& direction, double radius, std::int32_t element)
   {
-    cage_.axes.push_back({ base, direction, 0.5 * radius, 0.0, kReach * radius, 0.5 * radius });
+    cage_.axes.push_back(
+      { base, direction, 0.5 * radius, 0.0, kReach * radius, 0.5 * radius, element });
     cage_.radii.push_back(radius);
     return std::int32_t(cage_.axes.size() - 1);
   }
@@ -149,7 +155,7 @@ private:
 } // namespace
 
 PieceCage surfaceCage(
-  const SurfacePiece& piece, const RefinedSkeleton& refined, int level, const FieldSource& field)
+  const SurfacePiece& piece, const RefinedSkeleton& refined, int level, const PlacedField& field)
 {
   SheetTriangles sheet = sheetOf(piece, refined, level);
   SheetFans fans = findFans(sheet);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <ostream>
 #include <vector>
 
@@ -20,8 +21,7 @@ void add(GroupedElements& elements, std::int32_t a, std::int32_t b)
 {
   const auto reach = [&](std::int32_t k) { return elements.reaches[static_cast<std::size_t>(k)]; };
   elements.segments.push_back(
-    { { a, b }, { reach(a), reach(b) }, { { { 1.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 } } },
-      static_cast<std::int32_t>(elements.groups.size()) });
+    { { a, b }, { reach(a), reach(b) }, static_cast<std::int32_t>(elements.groups.size()) });
   elements.groups.push_back({ a, b, -1 });
 }
 
@@ -29,7 +29,6 @@ void add(GroupedElements& elements, std::int32_t a, std::int32_t b, std::int32_t
 {
   const auto reach = [&](std::int32_t k) { return elements.reaches[static_cast<std::size_t>(k)]; };
   elements.triangles.push_back({ { a, b, c }, { reach(a), reach(b), reach(c) },
-    { { { 1.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 }, { 0.0, 0.0, 1.0 } } },
     static_cast<std::int32_t>(elements.groups.size()) });
   elements.groups.push_back({ a, b, c });
 }
@@ -72,6 +71,24 @@ Box3 around(const GroupedElements& elements)
   return Box3(Vec3(box.min() - Vec3::Ones()), Vec3(box.max() + Vec3::Ones()));
 }
 
+double valueOf(const SegmentElement& element, const ConvolutionKernel& kernel, const Vec3& p)
+{
+  const SegmentElement* pointer = &element;
+  double value = 0.0;
+  convolutionKernels(kernel.kind)
+    .addSegments({ &pointer, 1 }, kernel, { &p.x(), &p.y(), &p.z(), 1 }, &value);
+  return value;
+}
+
+double valueOf(const TriangleElement& element, const ConvolutionKernel& kernel, const Vec3& p)
+{
+  const TriangleElement* pointer = &element;
+  double value = 0.0;
+  convolutionKernels(kernel.kind)
+    .addTriangles({ &pointer, 1 }, kernel, { &p.x(), &p.y(), &p.z(), 1 }, &value);
+  return value;
+}
+
 // The sums at one point, from all elements and pieces.
 class Definition
 {
@@ -92,7 +109,7 @@ public:
     {
       for (std::size_t k = 0; k < elements.size(); ++k)
       {
-        here.push_back(valueOf(elements[k], p));
+        here.push_back(valueOf(elements[k], kernel_, p));
         places.push_back(of[k]);
         own[static_cast<std::size_t>(of[k].group)] += here.back();
       }
@@ -108,23 +125,6 @@ public:
   }
 
 private:
-  double valueOf(const SegmentElement& element, const Vec3& p) const
-  {
-    const SegmentElement* pointer = &element;
-    double value = 0.0;
-    convolutionKernels(kernel_.kind)
-      .addSegments({ &pointer, 1 }, kernel_, { &p.x(), &p.y(), &p.z(), 1 }, &value);
-    return value;
-  }
-  double valueOf(const TriangleElement& element, const Vec3& p) const
-  {
-    const TriangleElement* pointer = &element;
-    double value = 0.0;
-    convolutionKernels(kernel_.kind)
-      .addTriangles({ &pointer, 1 }, kernel_, { &p.x(), &p.y(), &p.z(), 1 }, &value);
-    return value;
-  }
-
   // G_i.
   double sum(std::int32_t i, const std::vector<double>& own, const std::vector<double>& here,
     const std::vector<BlendPieces::Place>& places) const
@@ -133,7 +133,6 @@ private:
     const auto isIn = [&](std::int32_t group)
     { return group == i || std::binary_search(others.begin(), others.end(), group); };
     const BlendShare share(control_);
-    const bool isPaper = control_.kind == BlendingKind::Paper;
     double total = 0.0;
     for (std::int32_t j = 0; j < static_cast<std::int32_t>(own.size()); ++j)
     {
@@ -141,19 +140,13 @@ private:
       double far = 0.0;
       for (std::size_t c = 0; c < here.size(); ++c)
       {
-        if (isPaper ? places[c].group == i : isIn(places[c].group))
+        if (isIn(places[c].group))
         {
           sum += here[c];
           far += here[c] * distance(places[c], j, 2.0 * share.end());
         }
       }
-      if (!isIn(j) || sum == 0.0)
-      {
-        continue;
-      }
-      const double field = own[static_cast<std::size_t>(j)];
-      total +=
-        isPaper && j == i ? field : share(far / sum) * (isPaper ? std::min(field, sum) : field);
+      total += isIn(j) && sum > 0.0 ? share(far / sum) * own[static_cast<std::size_t>(j)] : 0.0;
     }
     return total;
   }
@@ -169,6 +162,121 @@ private:
   ConvolutionKernel kernel_;
   BlendPieces pieces_;
 };
+
+// The same for [SUB]'s own, of elements that are a group each. Segments come behind the triangle.
+class PaperDefinition
+{
+public:
+  PaperDefinition(const GroupedElements& elements, const ConvolutionKernel& kernel)
+    : elements_(elements), kernel_(kernel)
+  {
+  }
+
+  double operator()(const Vec3& p) const
+  {
+    double best = 0.0;
+    for (std::size_t i = 0; i < elements_.groups.size(); ++i)
+    {
+      best = std::max(best, this->sum(i, p, true));
+    }
+    return this->end(best);
+  }
+
+  /// Of one group by itself.
+  double own(std::size_t i, const Vec3& p) const { return this->end(this->sum(i, p, false)); }
+
+private:
+  static constexpr double kUnattached = -1000.0;
+
+  double end(double sum) const { return kernel_.kind == KernelKind::Cauchy ? faded(sum) : sum; }
+
+  double sum(std::size_t i, const Vec3& p, bool isCut) const
+  {
+    const BlendShare share(BlendingControl{ BlendingKind::Paper });
+    const double own = this->field(i, p);
+    double total = own;
+    for (std::size_t j = 0; j < elements_.groups.size(); ++j)
+    {
+      const double far = j == i ? kUnattached : this->parameter(i, j, p);
+      if (far != kUnattached)
+      {
+        const double other = this->field(j, p);
+        total += share(far) * (isCut ? std::min(own, other) : other);
+      }
+    }
+    return total;
+  }
+
+  double field(std::size_t group, const Vec3& p) const
+  {
+    const auto at = [&](std::int32_t k) { return elements_.points[static_cast<std::size_t>(k)]; };
+    for (const GroupedElement<2>& s : elements_.segments)
+    {
+      if (static_cast<std::size_t>(s.group) == group)
+      {
+        return valueOf(
+          makeSegmentElement(at(s.corners[0]), at(s.corners[1]), s.reaches[0], s.reaches[1]),
+          kernel_, p);
+      }
+    }
+    for (const GroupedElement<3>& t : elements_.triangles)
+    {
+      if (static_cast<std::size_t>(t.group) == group)
+      {
+        return valueOf(
+          makeTriangleElement({ at(t.corners[0]), at(t.corners[1]), at(t.corners[2]) }, t.reaches),
+          kernel_, p);
+      }
+    }
+    return 0.0;
+  }
+
+  // u on i, from where j is attached: by heights, 0 at the corner or edge.
+  double parameter(std::size_t i, std::size_t j, const Vec3& p) const
+  {
+    const auto at = [&](std::int32_t k) { return elements_.points[static_cast<std::size_t>(k)]; };
+    std::vector<Vec3> shared;
+    std::vector<Vec3> others;
+    for (const std::int32_t corner : elements_.groups[i])
+    {
+      const auto& of = elements_.groups[j];
+      if (corner >= 0)
+      {
+        (std::find(of.begin(), of.end(), corner) != of.end() ? shared : others)
+          .push_back(at(corner));
+      }
+    }
+    if (shared.empty())
+    {
+      return kUnattached;
+    }
+    if (others.size() + shared.size() == 2)
+    {
+      const Vec3 way = others[0] - shared[0];
+      return (p - shared[0]).dot(way) / way.squaredNorm();
+    }
+    // In the triangle's plane, across the edge on the side of which u does not change.
+    const std::vector<Vec3>& edge = shared.size() == 2 ? shared : others;
+    const Vec3& tip = shared.size() == 2 ? others[0] : shared[0];
+    const Vec3 along = (edge[1] - edge[0]).normalized();
+    const Vec3 across = tip - edge[0] - (tip - edge[0]).dot(along) * along;
+    const double height = (p - edge[0]).dot(across) / across.squaredNorm();
+    return shared.size() == 2 ? height : 1.0 - height;
+  }
+
+  const GroupedElements& elements_;
+  ConvolutionKernel kernel_;
+};
+
+std::function<double(const Vec3&)> definition(
+  const GroupedElements& elements, const BlendingControl& control, const ConvolutionKernel& kernel)
+{
+  if (control.kind == BlendingKind::Paper)
+  {
+    return PaperDefinition(elements, kernel);
+  }
+  return Definition(elements, control, kernel);
+}
 
 struct Case
 {
@@ -187,6 +295,20 @@ class BlendSumsCases : public testing::TestWithParam<Case>
 {
 };
 
+// The field at points, with the elements of a selection or, for null, with all.
+std::vector<double> valuesAt(
+  const BlendedField& field, const BlendSelection* selection, PointBatch points)
+{
+  std::vector<double> value(points.size, 0.0);
+  field.addField(selection, points, value.data());
+  return value;
+}
+
+double valueAt(const BlendedField& field, const Vec3& p)
+{
+  return valuesAt(field, nullptr, { &p.x(), &p.y(), &p.z(), 1 }).front();
+}
+
 TEST_P(BlendSumsCases, AreTheLargestSumOfTheDefinition)
 {
   const auto& [control, kernel] = GetParam();
@@ -195,20 +317,18 @@ TEST_P(BlendSumsCases, AreTheLargestSumOfTheDefinition)
   for (const int limb : { 1, 3, 6 })
   {
     const GroupedElements elements = tangle(random, limb);
-    const Definition definition(elements, control, kernel);
+    const auto expectedAt = definition(elements, control, kernel);
     const BlendedField field(kernel, control, elements);
     const PointList points = randomPoints(random, around(elements), 500);
-    std::vector<double> scattered(points.size(), 0.0);
-    field.addField(nullptr, points, scattered.data());
+    const std::vector<double> scattered = valuesAt(field, nullptr, points);
     BlendSelection selection;
     field.select(field.influenceBounds(), selection);
-    std::vector<double> together(points.size(), 0.0);
-    field.addField(&selection, points, together.data());
+    const std::vector<double> together = valuesAt(field, &selection, points);
     std::vector<double> sum(points.size(), 0.0);
     field.sum().addField(selection.all, points, sum.data());
     for (std::size_t k = 0; k < points.size(); ++k)
     {
-      const double expected = definition(points.batch()[k]);
+      const double expected = expectedAt(points.batch()[k]);
       ASSERT_NEAR(scattered[k], expected, 1e-12);
       ASSERT_NEAR(together[k], expected, 1e-12);
       controlled += expected < sum[k] - 1e-6;
@@ -227,21 +347,16 @@ TEST_P(BlendSumsCases, GradientsAreThoseOfTheField)
   std::vector<double> value(points.size(), 0.0);
   VectorList gradient(points.size());
   field.addFieldAndGradient(nullptr, points, value.data(), gradient);
-  const auto at = [&](const Vec3& p)
-  {
-    double sum = 0.0;
-    field.addField(nullptr, { &p.x(), &p.y(), &p.z(), 1 }, &sum);
-    return sum;
-  };
   int steep = 0;
   for (std::size_t k = 0; k < points.size(); ++k)
   {
-    ASSERT_NEAR(value[k], at(points[k]), 1e-12);
+    ASSERT_NEAR(value[k], valueAt(field, points[k]), 1e-12);
     constexpr double kStep = 1e-6;
     for (int axis = 0; axis < 3; ++axis)
     {
       const Vec3 step = kStep * Vec3::Unit(axis);
-      const double slope = (at(points[k] + step) - at(points[k] - step)) / (2.0 * kStep);
+      const double slope =
+        (valueAt(field, points[k] + step) - valueAt(field, points[k] - step)) / (2.0 * kStep);
       ASSERT_NEAR(gradient.batch()[k][axis], slope, 1e-4) << points[k].transpose();
       steep += std::abs(slope) > 0.01;
     }
@@ -263,9 +378,7 @@ TEST_P(BlendSumsCases, RangesHoldTheField)
     BlendSelection selection;
     field.select(box, selection);
     const Interval range = field.range(selection, box);
-    const PointList points = randomPoints(random, box, 50);
-    std::vector<double> value(points.size(), 0.0);
-    field.addField(&selection, points, value.data());
+    const std::vector<double> value = valuesAt(field, &selection, randomPoints(random, box, 50));
     EXPECT_LE(range.min, *std::min_element(value.begin(), value.end()));
     EXPECT_GE(range.max, *std::max_element(value.begin(), value.end()));
   }
@@ -274,6 +387,42 @@ TEST_P(BlendSumsCases, RangesHoldTheField)
 constexpr ConvolutionKernel kQuadratic;
 constexpr ConvolutionKernel kCubic{ KernelKind::Compact, 3, 1.7 };
 constexpr ConvolutionKernel kCauchy{ KernelKind::Cauchy, 2, 2.0 };
+
+// [SUB]'s setting: which element a point belongs to is known.
+TEST(PaperSums, OfOneElementAreThoseOfItsNeighboursAlone)
+{
+  Random random(14);
+  for (const ConvolutionKernel& kernel : { kQuadratic, kCubic, kCauchy })
+  {
+    const GroupedElements elements = tangle(random, 3);
+    const BlendedField field(kernel, { BlendingKind::Paper }, elements);
+    const PaperDefinition expected(elements, kernel);
+    const PointList points = randomPoints(random, around(elements), 100);
+    std::vector<double> value(points.size());
+    std::vector<double> alone(points.size());
+    VectorList gradient(points.size());
+    for (std::size_t group = 0; group < elements.groups.size(); ++group)
+    {
+      const auto number = static_cast<std::int32_t>(group);
+      const VectorBatch slopes = gradient;
+      field.ownSum(number, points, value.data(), &slopes);
+      field.ownSum(number, points, alone.data(), nullptr);
+      for (std::size_t k = 0; k < points.size(); ++k)
+      {
+        ASSERT_NEAR(value[k], expected.own(group, points[k]), 1e-12);
+        ASSERT_NEAR(alone[k], value[k], 1e-14);
+        constexpr double kStep = 1e-6;
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          const Vec3 step = kStep * Vec3::Unit(axis);
+          const double slope =
+            expected.own(group, points[k] + step) - expected.own(group, points[k] - step);
+          ASSERT_NEAR(slopes[k][axis], slope / (2.0 * kStep), 1e-4);
+        }
+      }
+    }
+  }
+}
 
 INSTANTIATE_TEST_SUITE_P(Controls, BlendSumsCases,
   testing::Values(Case{ { BlendingKind::Neighbours, 0.5 }, kQuadratic },

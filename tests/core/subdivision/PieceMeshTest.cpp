@@ -76,9 +76,8 @@ SkeletonGraph ring(int n)
 
 void expectOnSurface(const SkeletonFieldCase& shape, const PieceMesh& piece)
 {
-  std::vector<double> value;
   std::vector<Vec3> gradient;
-  fieldAndGradientAt(*shape.node, piece.points, value, gradient);
+  const std::vector<double> value = fieldAt(*shape.node, piece.points, &gradient);
   for (std::size_t k = 0; k < piece.points.size(); ++k)
   {
     if (piece.onSurface[k])

@@ -54,9 +54,8 @@ double commonSmallestAngle(const TriangleMesh& mesh)
 
 void expectOnSurface(const SkeletonFieldCase& shape, const TriangleMesh& mesh, double cell)
 {
-  std::vector<double> value;
   std::vector<Vec3> gradient;
-  fieldAndGradientAt(*shape.node, mesh.points, value, gradient);
+  const std::vector<double> value = fieldAt(*shape.node, mesh.points, &gradient);
   for (std::size_t k = 0; k < mesh.points.size(); ++k)
   {
     ASSERT_LT(std::abs(value[k] - kThreshold) / gradient[k].norm(), 1e-3 * cell);

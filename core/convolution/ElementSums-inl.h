@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The loops over elements, for any kernel. Included once per instruction set; so no #pragma once.
+#if defined(HYBRIDTREE_ELEMENT_SUMS) == defined(HWY_TARGET_TOGGLE)
+#ifdef HYBRIDTREE_ELEMENT_SUMS
+#undef HYBRIDTREE_ELEMENT_SUMS
+#else
+#define HYBRIDTREE_ELEMENT_SUMS
+#endif
+
+#include "core/convolution/ConvolutionKernels-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace hybridtree
+{
+namespace HWY_NAMESPACE
+{
+
+// Loop bodies for forEachVector(). Integral has
+// - void add(const Element&, V x, V y, V z, V& value) const,
+// - void addWithGradient(const Element&, V x, V y, V z, V& value, V& gx, V& gy, V& gz) const,
+// and the amplitude, by which sums are multiplied in the end.
+template <class Element, class Integral>
+struct AddElementsBody
+{
+  ElementSpan<Element> span;
+  Integral integral;
+  double amplitude;
+
+  HWY_INLINE void operator()(
+    const double* x, const double* y, const double* z, const std::array<double*, 1>& out) const
+  {
+    const D d;
+    V value = hn::Zero(d);
+    for (std::size_t k = 0; k < span.count; ++k)
+    {
+      integral.add(*span.elements[k], hn::LoadU(d, x), hn::LoadU(d, y), hn::LoadU(d, z), value);
+    }
+    hn::StoreU(hn::MulAdd(set(amplitude), value, hn::LoadU(d, out[0])), d, out[0]);
+  }
+};
+
+template <class Element, class Integral>
+struct AddElementsWithGradientBody
+{
+  ElementSpan<Element> span;
+  Integral integral;
+  double amplitude;
+
+  HWY_INLINE void operator()(
+    const double* x, const double* y, const double* z, const std::array<double*, 4>& out) const
+  {
+    const D d;
+    V sum[4] = { hn::Zero(d), hn::Zero(d), hn::Zero(d), hn::Zero(d) };
+    for (std::size_t k = 0; k < span.count; ++k)
+    {
+      integral.addWithGradient(*span.elements[k], hn::LoadU(d, x), hn::LoadU(d, y), hn::LoadU(d, z),
+        sum[0], sum[1], sum[2], sum[3]);
+    }
+    for (std::size_t k = 0; k < 4; ++k)
+    {
+      hn::StoreU(hn::MulAdd(set(amplitude), sum[k], hn::LoadU(d, out[k])), d, out[k]);
+    }
+  }
+};
+
+inline double amplitudeOf(const ConvolutionKernel& kernel, const SegmentElement*)
+{
+  return segmentAmplitude(kernel);
+}
+
+inline double amplitudeOf(const ConvolutionKernel& kernel, const TriangleElement*)
+{
+  return triangleAmplitude(kernel);
+}
+
+// Two of the functions of a ConvolutionKernels.
+template <class Element, class Integral>
+struct ElementSums
+{
+  static void add(
+    ElementSpan<Element> span, const ConvolutionKernel& kernel, PointBatch points, double* sum)
+  {
+    const double amplitude = amplitudeOf(kernel, static_cast<const Element*>(nullptr));
+    forEachVector<1>(
+      points, { sum }, AddElementsBody<Element, Integral>{ span, Integral(kernel), amplitude });
+  }
+  static void addWithGradient(ElementSpan<Element> span, const ConvolutionKernel& kernel,
+    PointBatch points, double* sum, VectorBatch gradient)
+  {
+    const double amplitude = amplitudeOf(kernel, static_cast<const Element*>(nullptr));
+    forEachVector<4>(points, { sum, gradient.x, gradient.y, gradient.z },
+      AddElementsWithGradientBody<Element, Integral>{ span, Integral(kernel), amplitude });
+  }
+};
+
+// A value and, as Rows is 1 or 4, its gradient.
+template <std::size_t Rows>
+struct Sample
+{
+  V rows[Rows];
+
+  HWY_INLINE Sample()
+  {
+    for (V& row : rows)
+    {
+      row = hn::Zero(D());
+    }
+  }
+};
+
+template <class Segments, class Triangles, std::size_t Rows>
+struct AddSharedBody
+{
+  const SharedElements* begin;
+  const SharedElements* end;
+  Segments segments;
+  Triangles triangles;
+  double segmentAmplitude;
+  double triangleAmplitude;
+
+  HWY_INLINE void operator()(const double* px, const double* py, const double* pz,
+    const std::array<double*, Rows>& out) const
+  {
+    const D d;
+    const V x = hn::LoadU(d, px);
+    const V y = hn::LoadU(d, py);
+    const V z = hn::LoadU(d, pz);
+    Sample<Rows> total;
+    for (const SharedElements* part = begin; part != end; ++part)
+    {
+      const V u = hn::Add(dot(part->slope, x, y, z), set(part->offset));
+      if (hn::AllTrue(d, hn::Ge(u, set(1.0))))
+      {
+        continue; // counts nothing
+      }
+      Sample<Rows> own;
+      addScaled(part->segments, segments, segmentAmplitude, x, y, z, own);
+      addScaled(part->triangles, triangles, triangleAmplitude, x, y, z, own);
+      addShare(*part, hn::Min(hn::Max(u, hn::Zero(d)), set(1.0)), own, total);
+    }
+    for (std::size_t row = 0; row < Rows; ++row)
+    {
+      hn::StoreU(hn::Add(total.rows[row], hn::LoadU(d, out[row])), d, out[row]);
+    }
+  }
+
+private:
+  template <class Element, class Integral>
+  static HWY_INLINE void addScaled(const ElementSpan<Element>& span, const Integral& integral,
+    double amplitude, V x, V y, V z, Sample<Rows>& sum)
+  {
+    Sample<Rows> unscaled;
+    for (std::size_t k = 0; k < span.count; ++k)
+    {
+      if constexpr (Rows == 1)
+      {
+        integral.add(*span.elements[k], x, y, z, unscaled.rows[0]);
+      }
+      else
+      {
+        integral.addWithGradient(*span.elements[k], x, y, z, unscaled.rows[0], unscaled.rows[1],
+          unscaled.rows[2], unscaled.rows[3]);
+      }
+    }
+    for (std::size_t row = 0; row < Rows; ++row)
+    {
+      sum.rows[row] = hn::MulAdd(set(amplitude), unscaled.rows[row], sum.rows[row]);
+    }
+  }
+
+  static HWY_INLINE void addShare(
+    const SharedElements& part, V u, const Sample<Rows>& own, Sample<Rows>& total)
+  {
+    const V one = set(1.0);
+    const V square = hn::Mul(u, u);
+    const V inner = hn::MulAdd(u, hn::MulAdd(u, set(6.0), set(-15.0)), set(10.0));
+    const V share = hn::NegMulAdd(hn::Mul(square, u), inner, one);
+    for (std::size_t row = 0; row < Rows; ++row)
+    {
+      total.rows[row] = hn::MulAdd(share, own.rows[row], total.rows[row]);
+    }
+    if constexpr (Rows == 4)
+    {
+      const V rest = hn::Sub(one, u);
+      const V fall = hn::Mul(hn::Mul(set(-30.0), square), hn::Mul(rest, rest));
+      const V step = hn::Mul(fall, own.rows[0]);
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        V& row = total.rows[std::size_t(axis) + 1];
+        row = hn::MulAdd(step, set(part.slope[axis]), row);
+      }
+    }
+  }
+};
+
+// The other two.
+template <class Segments, class Triangles>
+struct SharedSums
+{
+  static void add(const std::vector<SharedElements>& parts, const ConvolutionKernel& kernel,
+    PointBatch points, double* sum)
+  {
+    forEachVector<1>(points, { sum }, body<1>(parts, kernel));
+  }
+  static void addWithGradient(const std::vector<SharedElements>& parts,
+    const ConvolutionKernel& kernel, PointBatch points, double* sum, VectorBatch gradient)
+  {
+    forEachVector<4>(points, { sum, gradient.x, gradient.y, gradient.z }, body<4>(parts, kernel));
+  }
+
+private:
+  template <std::size_t Rows>
+  static AddSharedBody<Segments, Triangles, Rows> body(
+    const std::vector<SharedElements>& parts, const ConvolutionKernel& kernel)
+  {
+    return { parts.data(), parts.data() + parts.size(), Segments(kernel), Triangles(kernel),
+      segmentAmplitude(kernel), triangleAmplitude(kernel) };
+  }
+};
+
+template <class Segments, class Triangles, class Shared>
+const ConvolutionKernels* kernelsOf()
+{
+  static const ConvolutionKernels kernels = { &Segments::add, &Segments::addWithGradient,
+    &Triangles::add, &Triangles::addWithGradient, &Shared::add, &Shared::addWithGradient };
+  return &kernels;
+}
+
+} // namespace HWY_NAMESPACE
+} // namespace hybridtree
+HWY_AFTER_NAMESPACE();
+
+#endif // per-target include guard
