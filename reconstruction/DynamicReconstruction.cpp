@@ -141,11 +141,13 @@ ReconstructedSurface DynamicReconstruction::update(
   }
   const Phase level = Phase::ofLevel(detail);
   this->refine(level, ProgressPart(progress, 0.5, 0.8));
-  this->convectAgain(level, ProgressPart(progress, 0.8, 0.9));
+  this->convectAgain(level, ProgressPart(progress, 0.8, 0.88));
+  this->hold(level, ProgressPart(progress, 0.88, 0.9));
   levelSteps_ = state_->surface.stepCount();
   if (!detail.region.isEmpty())
   {
-    this->refine(Phase::ofRegion(detail), ProgressPart(progress, 0.9, 1.0));
+    this->refine(Phase::ofRegion(detail), ProgressPart(progress, 0.9, 0.98));
+    this->hold(Phase::ofRegion(detail), ProgressPart(progress, 0.98, 1.0));
   }
   return this->result(detail);
 }
@@ -445,9 +447,9 @@ void DynamicReconstruction::warnOf(
     most = std::max(most, state_->near.distance(point));
   }
   std::ostringstream text;
-  text << far.size() << " of " << points_.size() << " points are farther than " << name << " "
-       << phase.tolerance << " from the surface, the farthest by " << most
-       << ": inside of it, far from all others, on an open sheet, or where it would touch itself.";
+  text << far.size() << " of " << this->usedPoints().size() << " points are farther than " << name
+       << " " << phase.tolerance << " from the surface, the farthest by " << most
+       << ": it could take them up only by touching itself, or by another handle.";
   warnings.push_back(text.str());
 }
 

@@ -26,8 +26,12 @@ namespace hybridtree
 /// A subset of the points, chosen by roughness (PointOctree.h), is reconstructed by static
 /// convection. Then the input point farthest from the surface is added, over and over;
 /// tetrahedralization and surface follow locally (DynamicSurface.h). Only points that are used are
-/// ever triangulated. A point that the surface cannot take up without changing its topology is
-/// added to the tetrahedralization, and convection starts from the hull again.
+/// ever triangulated. Where more than a few points cannot be taken up, they are added to the
+/// tetrahedralization, and convection starts from the hull again.
+///
+/// A tolerance holds for every point, also for those that convection leaves behind, in narrow bays
+/// or thin tips: at last the surface goes to each of them, tetrahedron by tetrahedron, wherever
+/// that leaves it a manifold of the same genus. How many are left, if any, a warning says.
 ///
 /// All additions since convection are on a stack. A finer level adds to it; a coarser one takes
 /// additions back until it is met; a region of refinement is on top of it. A level that is coarser
@@ -89,6 +93,7 @@ private:
     double tolerance = 0.0;
     std::size_t vertices = std::numeric_limits<std::size_t>::max();
     const Box3* region = nullptr; // all, if null
+    DynamicSurface::Way way = DynamicSurface::Way::Convected;
 
     static Phase ofLevel(const LevelOfDetail& detail)
     {
@@ -129,10 +134,13 @@ private:
   void refine(const Phase& phase, const Progress& progress);
   bool refineOnce(const Phase& phase, const Progress& progress);
   bool place(const Phase& phase, std::int32_t point);
+  bool reach(const Phase& phase, std::int32_t point);
   void offerFarthest(const Phase& phase, std::int32_t triangle);
   std::vector<std::int32_t> nextRound(const Phase& phase);
   std::vector<std::int32_t> farPoints(const Phase& phase) const;
   void convectAgain(const Phase& phase, const Progress& progress);
+  void reachAll(Phase phase, const Progress& progress);
+  void hold(const Phase& phase, const Progress& progress);
   ReconstructedSurface result(const LevelOfDetail& detail) const;
   void warn(const LevelOfDetail& detail, std::vector<std::string>& warnings) const;
   void warnOf(

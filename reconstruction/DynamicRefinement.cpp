@@ -12,8 +12,12 @@ namespace
 
 // How often convection may start anew for points that could not be taken up.
 constexpr int kRestarts = 3;
+// It does for more than this share of all: fewer are reached from the surface as it is.
+constexpr double kFewFar = 0.002;
 // How often points that were refused are tried again, where others have been placed since.
 constexpr int kTries = 6;
+// How often all points that are too far are tried.
+constexpr int kMostRounds = 10;
 
 } // namespace
 
@@ -117,11 +121,11 @@ bool DynamicReconstruction::place(const Phase& phase, std::int32_t point)
     }
     return true;
   };
-  switch (surface.place(points_[point], surface.triangle(triangle)[0], phase.tolerance))
+  switch (surface.place(points_[point], surface.triangle(triangle)[0], phase.tolerance, phase.way))
   {
     case DynamicSurface::Outcome::Prepared:
       placed();
-      return this->place(phase, point);
+      return phase.way == DynamicSurface::Way::Convected && this->place(phase, point);
     case DynamicSurface::Outcome::Placed:
       state_->pointOfSite.push_back(point);
       [[fallthrough]];
@@ -129,10 +133,8 @@ bool DynamicReconstruction::place(const Phase& phase, std::int32_t point)
       near.move(point, surface.lastChange().removed.front(), 0.0);
       return placed();
     case DynamicSurface::Outcome::Near:
-      near.move(point, surface.nearTriangle(), surface.nearDistance());
-      break;
     case DynamicSurface::Outcome::Coincides:
-      near.move(point, triangle, 0.0);
+      near.move(point, surface.nearTriangle(), surface.nearDistance());
       break;
     case DynamicSurface::Outcome::Refused:
       near.refuse(point);
@@ -186,7 +188,7 @@ void DynamicReconstruction::convectAgain(const Phase& phase, const Progress& pro
     return;
   }
   std::vector<std::int32_t> far = this->farPoints(phase);
-  if (far.empty())
+  if (double(far.size()) <= kFewFar * double(measured_))
   {
     return;
   }
@@ -209,6 +211,89 @@ void DynamicReconstruction::convectAgain(const Phase& phase, const Progress& pro
     }
   }
   *state_ = std::move(best);
+}
+
+// Step by step. \returns whether it is no longer too far; if not, the steps are taken back.
+bool DynamicReconstruction::reach(const Phase& phase, std::int32_t point)
+{
+  constexpr std::size_t kMostSteps = 64;
+  const std::size_t before = state_->surface.stepCount();
+  while (!this->place(phase, point))
+  {
+    if (state_->near.refused(point) || state_->surface.stepCount() > before + kMostSteps)
+    {
+      while (state_->surface.stepCount() > before)
+      {
+        this->takeBack();
+      }
+      state_->near.refuse(point);
+      return false;
+    }
+    if (!phase.wants(points_[point], state_->near.distance(point)))
+    {
+      return true;
+    }
+  }
+  return true;
+}
+
+// Points that convection leaves behind, nearest first: each is a step to others behind it. Where
+// the surface moves, others may come to be too far, but none for ever: it ends when all are near
+// enough, or none of those left can be taken up.
+void DynamicReconstruction::reachAll(Phase phase, const Progress& progress)
+{
+  phase.way = DynamicSurface::Way::Any;
+  std::vector<std::int32_t> far = this->farPoints(phase);
+  bool reached = true;
+  for (int round = 0; reached && !far.empty() && round < kMostRounds; ++round)
+  {
+    const auto distance = [&](std::int32_t point) { return state_->near.distance(point); };
+    std::sort(far.begin(), far.end(),
+      [&](std::int32_t a, std::int32_t b)
+      { return distance(a) != distance(b) ? distance(a) < distance(b) : a < b; });
+    state_->near.forgive();
+    reached = false;
+    for (std::size_t k = 0; k < far.size(); ++k)
+    {
+      if (k % 256 == 0)
+      {
+        progress.check();
+      }
+      if (phase.wants(points_[far[k]], distance(far[k])))
+      {
+        reached = this->reach(phase, far[k]) || reached;
+      }
+    }
+    state_->near.measure(this->farPoints(phase), state_->surface, progress);
+    far = this->farPoints(phase);
+  }
+}
+
+// Sees to it that the tolerance holds, if a manifold can.
+void DynamicReconstruction::hold(const Phase& phase, const Progress& progress)
+{
+  if (phase.tolerance <= 0.0)
+  {
+    return;
+  }
+  this->reachAll(phase, progress);
+  const std::vector<std::int32_t> far = this->farPoints(phase);
+  if (far.empty() || phase.region)
+  {
+    return;
+  }
+  // Another surface may come around to those that are left.
+  State best = *state_;
+  const std::ptrdiff_t topology = this->eulerNumber();
+  this->addSites(far, progress);
+  const bool solid = this->convect(progress);
+  this->measureAll(progress);
+  this->refine(phase, progress);
+  this->reachAll(phase, progress);
+  if (!solid || this->eulerNumber() != topology || this->farPoints(phase).size() >= far.size())
+  {
+    *state_ = std::move(best);
+  }
 }
 
 } // namespace hybridtree

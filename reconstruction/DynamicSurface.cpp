@@ -15,29 +15,6 @@
 
 namespace hybridtree
 {
-namespace
-{
-
-struct Edge
-{
-  std::int32_t from; // sites
-  std::int32_t to;
-};
-
-bool sameEnds(const Edge& a, const Edge& b)
-{
-  return std::minmax({ a.from, a.to }) == std::minmax({ b.from, b.to });
-}
-
-} // namespace
-
-// What a point to be added would replace.
-struct DynamicSurface::Hole
-{
-  std::vector<Edge> edges; // of the border's facets whose cell is inside, each turned outward
-  std::vector<std::int32_t> triangles; // of the surface within it
-};
-
 void DynamicSurface::insert(const std::vector<Vec3>& points, const Progress& progress)
 {
   delaunay_.insert(points, progress);
@@ -65,22 +42,23 @@ void DynamicSurface::setInside(
 }
 
 DynamicSurface::Outcome DynamicSurface::place(
-  const Vec3& point, std::int32_t near, double tolerance)
+  const Vec3& point, std::int32_t near, double tolerance, Way way)
 {
   const Delaunay::Place where = delaunay_.locate(point, near);
   if (where.vertex >= 0)
   {
-    return this->surfaceAt(where.vertex, tolerance);
+    return this->surfaceAt(where.vertex, tolerance, way);
   }
   delaunay_.findCavity(point, where, cavity_);
   Hole hole = this->holeOf(cavity_.cells);
   std::int32_t dent = -1;
   if (hole.triangles.empty())
   {
-    dent = this->facetTowards(point, cavity_.border);
+    dent = this->facetTowards(point, cavity_.border, way);
     if (dent < 0)
     {
-      return Outcome::Refused;
+      return way == Way::Any && this->approach(cavity_.cells) ? Outcome::Prepared
+                                                              : Outcome::Refused;
     }
     hole.triangles.push_back(this->triangleOf(dent));
   }
@@ -93,7 +71,12 @@ DynamicSurface::Outcome DynamicSurface::place(
   }
   if (dent < 0 && !this->keepsManifold(hole))
   {
-    return this->prepare(point, tolerance) ? Outcome::Prepared : Outcome::Refused;
+    const bool any = way == Way::Any;
+    const bool prepared = this->prepare(point, tolerance, 1) ||
+      (any &&
+        (this->prepare(point, tolerance, 2) || this->prepare(point, tolerance, 3) ||
+          this->clear(cavity_.cells)));
+    return prepared ? Outcome::Prepared : Outcome::Refused;
   }
   change_.removed = hole.triangles;
   this->fill(point, dent);
@@ -243,89 +226,6 @@ void DynamicSurface::takeBack(const Step& step)
   }
 }
 
-// Moves one tetrahedron that the last point would replace to the other side of the surface, if then
-// the point can be placed.
-bool DynamicSurface::prepare(const Vec3& point, double tolerance)
-{
-  for (const std::int32_t cell : cavity_.cells)
-  {
-    if (!this->mayFlip(cell))
-    {
-      continue;
-    }
-    inside_[cell] ^= 1;
-    const Hole hole = this->holeOf(cavity_.cells);
-    inside_[cell] ^= 1;
-    // What is prepared is placed, else two points could push the surface to and fro for ever.
-    const bool near = std::any_of(hole.triangles.begin(), hole.triangles.end(),
-      [&](std::int32_t triangle) { return this->isNear(triangle, point, tolerance); });
-    if (!hole.triangles.empty() && !near && this->keepsManifold(hole))
-    {
-      this->flip(cell);
-      this->remember(cell);
-      return true;
-    }
-  }
-  return false;
-}
-
-// Whether the surface stays a manifold of the same genus. The same moves as the flow's (Front.cpp).
-bool DynamicSurface::mayFlip(std::int32_t cell)
-{
-  if (!delaunay_.finite(cell))
-  {
-    return false;
-  }
-  std::array<int, 4> open{};
-  int openCount = 0;
-  for (std::int32_t facet = 0; facet < 4; ++facet)
-  {
-    if (inside_[delaunay_.beyond(4 * cell + facet) >> 2] != inside_[cell])
-    {
-      open[openCount++] = facet;
-    }
-  }
-  const auto& v = delaunay_.cell(cell).vertices;
-  return openCount == 3 || (openCount == 1 && !this->onSurface(v[open[0]], v[open[0]])) ||
-    (openCount == 2 && !this->onSurface(v[open[0]], v[open[1]]));
-}
-
-// Whether a vertex, or an edge between two, is part of the surface.
-bool DynamicSurface::onSurface(std::int32_t site, std::int32_t other)
-{
-  delaunay_.star(site, star_);
-  std::array<bool, 2> seen{};
-  for (const std::int32_t cell : star_)
-  {
-    const auto& v = delaunay_.cell(cell).vertices;
-    if (std::find(v.begin(), v.end(), other) != v.end())
-    {
-      seen[inside_[cell] != 0 ? 1 : 0] = true;
-    }
-  }
-  return seen[0] && seen[1];
-}
-
-// Moves a tetrahedron to the other side of the surface.
-void DynamicSurface::flip(std::int32_t cell)
-{
-  const auto facets = [&](std::vector<std::int32_t>& triangles)
-  {
-    triangles.clear();
-    for (std::int32_t facet = 4 * cell; facet < 4 * cell + 4; ++facet)
-    {
-      if (inside_[cell] != inside_[delaunay_.beyond(facet) >> 2])
-      {
-        triangles.push_back(this->triangleOf(facet));
-      }
-    }
-  };
-  facets(change_.removed);
-  inside_[cell] ^= 1;
-  facets(change_.added);
-  change_.renamed.clear();
-}
-
 bool DynamicSurface::isNear(std::int32_t triangle, const Vec3& point, double tolerance)
 {
   const Triangle t = this->triangle(triangle);
@@ -334,38 +234,6 @@ bool DynamicSurface::isNear(std::int32_t triangle, const Vec3& point, double tol
   nearDistance_ =
     std::sqrt(nearestOnTriangle(point, sites[t[0]], sites[t[1]], sites[t[2]]).squaredDistance);
   return nearDistance_ <= tolerance;
-}
-
-// Lets the surface step on to a site that it has passed by, or not come to.
-DynamicSurface::Outcome DynamicSurface::surfaceAt(std::int32_t site, double tolerance)
-{
-  std::vector<std::int32_t>& star = cavity_.cells;
-  std::vector<std::int32_t>& border = cavity_.border;
-  delaunay_.star(site, star);
-  border.clear();
-  for (const std::int32_t cell : star)
-  {
-    if (inside_[cell] != inside_[star[0]])
-    {
-      return Outcome::Coincides; // it is on the surface
-    }
-    const auto& v = delaunay_.cell(cell).vertices;
-    border.push_back(
-      4 * cell + static_cast<std::int32_t>(std::find(v.begin(), v.end(), site) - v.begin()));
-  }
-  const Vec3& point = this->sites()[site];
-  const std::int32_t facet = this->facetTowards(point, border);
-  if (facet < 0)
-  {
-    return Outcome::Refused;
-  }
-  if (this->isNear(this->triangleOf(facet), point, tolerance))
-  {
-    return Outcome::Near;
-  }
-  this->flip(facet >> 2);
-  this->remember(facet >> 2);
-  return Outcome::Surfaced;
 }
 
 std::vector<std::int32_t> DynamicSurface::surface() const
@@ -392,10 +260,11 @@ std::vector<std::int32_t> DynamicSurface::surface() const
 }
 
 // Where all that a point replaces is on one side of the surface: the surface's nearest facet on the
-// border that is not oriented Gabriel for the point, so that convection would step on to it. That
-// is one facet replaced by three about a new vertex, and never changes the topology.
+// border that, if it is to be convected, is not oriented Gabriel for the point, so that the flow
+// would step on to it. That is one facet replaced by three about a new vertex, and never changes
+// the topology.
 std::int32_t DynamicSurface::facetTowards(
-  const Vec3& point, const std::vector<std::int32_t>& border) const
+  const Vec3& point, const std::vector<std::int32_t>& border, Way way) const
 {
   const std::vector<Vec3>& sites = this->sites();
   std::int32_t best = -1;
@@ -413,7 +282,8 @@ std::int32_t DynamicSurface::facetTowards(
     }
     const double squared =
       nearestOnTriangle(point, sites[t[0]], sites[t[1]], sites[t[2]]).squaredDistance;
-    if (squared < least && sideOfLeastBall(sites[t[0]], sites[t[1]], sites[t[2]], point) > 0)
+    if (squared < least &&
+      (way == Way::Any || sideOfLeastBall(sites[t[0]], sites[t[1]], sites[t[2]], point) > 0))
     {
       least = squared;
       best = facet;
@@ -427,14 +297,13 @@ bool DynamicSurface::keepsManifold(const Hole& hole) const
 {
   // Edges that facets on both sides have cancel; the others part inside from outside.
   std::vector<Edge> edges = hole.edges;
-  std::sort(edges.begin(), edges.end(),
-    [](const Edge& a, const Edge& b) {
-      return std::minmax({ a.from, a.to }) < std::minmax({ b.from, b.to });
-    });
+  const auto ends = [](const Edge& edge) { return std::minmax({ edge.from, edge.to }); };
+  std::sort(
+    edges.begin(), edges.end(), [&](const Edge& a, const Edge& b) { return ends(a) < ends(b); });
   std::vector<Edge> loop;
   for (std::size_t k = 0; k < edges.size(); ++k)
   {
-    if (k + 1 < edges.size() && sameEnds(edges[k], edges[k + 1]))
+    if (k + 1 < edges.size() && ends(edges[k]) == ends(edges[k + 1]))
     {
       ++k;
     }

@@ -54,10 +54,16 @@ public:
     Prepared, ///< The surface has moved, so that it would take up the point now.
     Coincides ///< Nothing was done: it is a vertex of the surface.
   };
+  enum class Way
+  {
+    Convected, ///< Only as the flow would: to points behind facets not oriented Gabriel.
+    Any ///< Also to points that convection leaves behind: wherever it stays a manifold. Prepared
+        ///< then is a step on the way, and may come many times.
+  };
   /// \param near a site not far from the point: where its search starts.
   /// \param tolerance the point is left out if a triangle that it would replace is this near.
-  Outcome place(const Vec3& point, std::int32_t near, double tolerance);
-  /// For Outcome::Near of the last place(): the triangle, and its distance.
+  Outcome place(const Vec3& point, std::int32_t near, double tolerance, Way way = Way::Convected);
+  /// For Outcome::Near and Coincides of the last place(): a triangle that is, and its distance.
   std::int32_t nearTriangle() const { return nearTriangle_; }
   double nearDistance() const { return nearDistance_; }
 
@@ -84,7 +90,17 @@ public:
   std::int32_t endOfNumbers() const { return 4 * delaunay_.cellCount(); }
 
 private:
-  struct Hole;
+  struct Edge
+  {
+    std::int32_t from; // sites
+    std::int32_t to;
+  };
+  // What a point to be added would replace.
+  struct Hole
+  {
+    std::vector<Edge> edges; // of the border's facets whose cell is inside, each turned outward
+    std::vector<std::int32_t> triangles; // of the surface within it
+  };
   struct Step
   {
     std::int32_t flipped; // cell; -1: a point was placed
@@ -94,17 +110,24 @@ private:
   };
 
   Hole holeOf(const std::vector<std::int32_t>& cells);
-  std::int32_t facetTowards(const Vec3& point, const std::vector<std::int32_t>& border) const;
+  std::int32_t facetTowards(
+    const Vec3& point, const std::vector<std::int32_t>& border, Way way) const;
   bool isNear(std::int32_t triangle, const Vec3& point, double tolerance);
   void remember(std::int32_t flipped);
   void fill(const Vec3& point, std::int32_t dent);
-  Outcome surfaceAt(std::int32_t site, double tolerance);
-  bool prepare(const Vec3& point, double tolerance);
+  Outcome surfaceAt(std::int32_t site, double tolerance, Way way);
+  bool prepare(const Vec3& point, double tolerance, int moves);
+  std::int32_t firstMove(const Vec3& point, double tolerance, int moves);
+  bool mayPlace(const Vec3& point, double tolerance);
+  bool approach(const std::vector<std::int32_t>& from);
+  bool clear(const std::vector<std::int32_t>& cells);
   bool mayFlip(std::int32_t cell);
+  int openFacets(std::int32_t cell) const;
   bool onSurface(std::int32_t site, std::int32_t other);
   void flip(std::int32_t cell);
   void takeBack(const Step& step);
   std::int32_t triangleOf(std::int32_t halfFacet) const;
+  std::int32_t triangleAt(std::int32_t site) const;
   bool keepsManifold(const Hole& hole) const;
 
   Delaunay delaunay_;
