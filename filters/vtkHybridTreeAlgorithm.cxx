@@ -4,7 +4,9 @@
 #include "core/base/Error.h"
 #include "core/nodes/MeshLimits.h"
 #include "core/nodes/Node.h"
+#include "vtkDataArray.h"
 #include "vtkExecutive.h"
+#include "vtkFieldData.h"
 #include "vtkHybridTreeArray.h"
 #include "vtkHybridTreeBlocks.h"
 #include "vtkHybridTreeConvert.h"
@@ -36,8 +38,39 @@ struct vtkHybridTreeAlgorithm::State
   vtkMTimeType NodeTime = 0; ///< modification time of the filter that Node belongs to
   Operands NodeOperands;     ///< operands that Node was made from
   hybridtree::FormulationRequest Asked;
-  std::vector<std::string> Told; ///< warnings already given about Node
+  std::vector<std::string> Told;                          ///< warnings already given about Node
+  std::vector<vtkSmartPointer<vtkDataArray>> FieldArrays; ///< of the last output
 };
+
+namespace
+{
+
+/// Takes an array of the last run for one that shares the same values. VTK keeps ranges with the
+/// array, and ParaView asks for those of all arrays after every update.
+void reuseArrays(std::vector<vtkSmartPointer<vtkDataArray>>& last, vtkFieldData* data)
+{
+  std::vector<vtkSmartPointer<vtkDataArray>> arrays;
+  for (int k = 0; k < data->GetNumberOfArrays(); ++k)
+  {
+    vtkDataArray* array = data->GetArray(k);
+    if (!array || !array->GetName())
+    {
+      continue;
+    }
+    const std::string name = array->GetName();
+    const auto same = std::find_if(last.begin(), last.end(),
+      [&](const auto& other)
+      {
+        return name == other->GetName() && array->GetVoidPointer(0) == other->GetVoidPointer(0) &&
+          array->GetNumberOfValues() == other->GetNumberOfValues();
+      });
+    arrays.emplace_back(same == last.end() ? array : same->Get());
+    data->AddArray(arrays.back()); // in the place of its namesake
+  }
+  last.swap(arrays);
+}
+
+} // namespace
 
 //------------------------------------------------------------------------------
 vtkHybridTreeAlgorithm::vtkHybridTreeAlgorithm() : Internals(new State) {}
@@ -263,7 +296,7 @@ void vtkHybridTreeAlgorithm::UpdateNode()
 void vtkHybridTreeAlgorithm::WriteOutput(
   vtkPolyData* output, bool withMesh, const hybridtree::Progress& progress)
 {
-  const State& state = *this->Internals;
+  State& state = *this->Internals;
   hybridtree::LeafArrays arrays;
   for (const auto& port : state.Inputs)
   {
@@ -286,6 +319,7 @@ void vtkHybridTreeAlgorithm::WriteOutput(
   hybridtree::putNames(leaves, output->GetFieldData());
   hybridtree::putArrays(arrays, leaves, output->GetFieldData());
   vtkHybridTreeArray::PutTree(state.Node, output);
+  reuseArrays(state.FieldArrays, output->GetFieldData());
 }
 
 //------------------------------------------------------------------------------

@@ -76,10 +76,30 @@ void readBlock(const Block& from, OperandBlock& to, std::vector<std::string>& ne
 
 void OperandBlock::read(vtkPolyData* input, std::vector<std::string>& newWarnings)
 {
+  if (time_ != input->GetMTime()) // that of points, cells and arrays, too
+  {
+    time_ = 0;
+    this->readTree(input, newWarnings);
+    time_ = input->GetMTime();
+  }
+}
+
+void OperandBlock::readMesh(vtkPolyData* input, std::vector<std::string>& newWarnings)
+{
+  if (time_ != input->GetMTime())
+  {
+    time_ = 0;
+    this->readTriangles(input, newWarnings);
+    time_ = input->GetMTime();
+  }
+}
+
+void OperandBlock::readTree(vtkPolyData* input, std::vector<std::string>& newWarnings)
+{
   const CarriedTree carried = carriedTree(input);
   if (!carried.belongs)
   {
-    this->readMesh(input, newWarnings);
+    this->readTriangles(input, newWarnings);
     return;
   }
   if (carried.live)
@@ -99,7 +119,7 @@ void OperandBlock::read(vtkPolyData* input, std::vector<std::string>& newWarning
   mergeArrays(arraysIn(input->GetFieldData()), arrays_);
 }
 
-void OperandBlock::readMesh(vtkPolyData* input, std::vector<std::string>& newWarnings)
+void OperandBlock::readTriangles(vtkPolyData* input, std::vector<std::string>& newWarnings)
 {
   const vtkTypeUInt64 print = fingerprint(input);
   if (!mesh_.repaired.mesh || print != fingerprint_)

@@ -39,9 +39,13 @@ public:
   bool isPatch() const;
 
 private:
+  void readTree(vtkPolyData* input, std::vector<std::string>& newWarnings);
+  void readTriangles(vtkPolyData* input, std::vector<std::string>& newWarnings);
+
   NodePtr node_;
   LeafArrays arrays_;
 
+  vtkMTimeType time_ = 0;         ///< of the input that was read last; no other data has it
   vtkTypeUInt64 fingerprint_ = 0; ///< of the input that node_ was made from, unless it came live
   std::string text_;              ///< that node_ was parsed from
   ConvertedMesh mesh_;            ///< that node_ is a leaf over

@@ -3,7 +3,9 @@
 #include "tests/filters/Support.h"
 
 #include "vtkAppendPolyData.h"
+#include "vtkDataArray.h"
 #include "vtkElevationFilter.h"
+#include "vtkFieldData.h"
 #include "vtkHybridTreeAffineTransform.h"
 #include "vtkHybridTreeArray.h"
 #include "vtkHybridTreeBlend.h"
@@ -214,6 +216,41 @@ TEST(Pipeline, AMeshInputKeepsItsLeaf)
   move->SetTranslate(1.0, 0.0, 0.0);
   move->Update();
   EXPECT_EQ(move->GetTree()->leafMesh(), leaf) << "dragging must not convert the mesh again";
+}
+
+/// VTK keeps what it found out about an array, such as its range, with the array.
+TEST(Pipeline, AnEditKeepsTheArraysOfMeshLeaves)
+{
+  vtkNew<vtkSphereSource> sphere;
+  const auto other = ball();
+  vtkNew<vtkHybridTreeBlend> blend;
+  blend->AddInputConnection(sphere->GetOutputPort());
+  blend->AddInputConnection(other->GetOutputPort());
+  const auto leafArrays = [&]
+  {
+    blend->Update();
+    std::vector<vtkSmartPointer<vtkDataArray>> arrays;
+    vtkFieldData* data = blend->GetOutput()->GetFieldData();
+    for (int k = 0; k < data->GetNumberOfArrays(); ++k)
+    {
+      if (vtkDataArray* array = data->GetArray(k))
+      {
+        arrays.emplace_back(array);
+      }
+    }
+    return arrays;
+  };
+  const auto before = leafArrays();
+  EXPECT_EQ(before.size(), 2u) << "points and triangles";
+  other->SetCenter(0.3, 0.2, 0.1);
+  EXPECT_EQ(leafArrays(), before);
+  sphere->SetRadius(0.4);
+  const auto changed = leafArrays();
+  ASSERT_EQ(changed.size(), 2u);
+  EXPECT_NE(changed[0], before[0]);
+  double range[2];
+  changed[0]->GetRange(range, 2);
+  EXPECT_NEAR(range[1], 0.4, 1e-6);
 }
 
 TEST(Pipeline, AbortEmptiesTheOutput)
