@@ -3,7 +3,10 @@
 // every closed mesh given, several times, and components and handles counted.
 //
 //   ReconstructionSweep [-n points, default 20000] [-s seeds, default 3] [-f first seed, default 1]
-//     mesh.off ...
+//     [-p 1] mesh.off ...
+//
+// With -p 1 CGAL's advancing front, scale space and Poisson go over the same points, each in a
+// process of its own that has ten minutes.
 //
 // Meshes that are open, or no 2-manifold, are named and left out of the count. In Debian, meshes
 // come with libcgal-demo:
@@ -13,11 +16,16 @@
 // (thin) or before which (gap) the opposite side of the surface is nearer than two mean distances
 // between points. Such places may be beyond what the points tell.
 
+#include "benchmarks/support/PeerReconstructions.h"
 #include "core/mesh/MeshChecks.h"
 #include "core/mesh/RepairMesh.h"
 #include "reconstruction/Convection.h"
 #include "tests/reconstruction/Samples.h"
 
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -32,6 +40,7 @@ namespace
 {
 
 using namespace hybridtree;
+using namespace hybridtree::benchmark;
 using namespace hybridtree::test;
 
 bool readOff(const std::string& file, std::vector<Vec3>& points, std::vector<Triangle>& triangles)
@@ -135,6 +144,64 @@ Fineness finenessOf(const TriangleMesh& mesh, std::size_t samples)
   return fineness;
 }
 
+struct Method
+{
+  const char* name;
+  TriangleMesh (*reconstruct)(const std::vector<Vec3>&);
+};
+
+TriangleMesh ours(const std::vector<Vec3>& points)
+{
+  return reconstruct(points).mesh;
+}
+
+constexpr std::array<Method, 4> kMethods{ { { "ours", ours }, { "advancing front", advancingFront },
+  { "scale space", scaleSpace }, { "Poisson", poisson } } };
+
+struct Trial
+{
+  bool done = false;
+  bool closed = false; // and a manifold
+  std::int64_t genus = 0;
+  std::size_t components = 0;
+  double seconds = 0.0;
+};
+
+Trial tryMethod(const Method& method, const std::vector<Vec3>& points)
+{
+  const auto start = std::chrono::steady_clock::now();
+  const TriangleMesh mesh = method.reconstruct(points);
+  const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
+  const MeshReport report = checkMesh(mesh);
+  const bool closed = report.closedManifold() && report.components > 0;
+  return { true, closed, closed ? report.genus() : 0, report.components, time.count() };
+}
+
+// In a process of its own, that may fail, and is stopped after ten minutes.
+Trial tryApart(const Method& method, const std::vector<Vec3>& points)
+{
+  constexpr unsigned kMost = 600;
+  int ends[2];
+  if (pipe(ends) != 0)
+  {
+    return {};
+  }
+  std::fflush(stdout);
+  const pid_t child = fork();
+  if (child == 0)
+  {
+    alarm(kMost);
+    const Trial trial = tryMethod(method, points);
+    _exit(write(ends[1], &trial, sizeof trial) == sizeof trial ? 0 : 1);
+  }
+  close(ends[1]);
+  Trial trial;
+  trial = read(ends[0], &trial, sizeof trial) == sizeof trial ? trial : Trial();
+  close(ends[0]);
+  waitpid(child, nullptr, 0);
+  return trial;
+}
+
 struct Tally
 {
   int meshes = 0;
@@ -143,47 +210,72 @@ struct Tally
   int closed = 0;
   int faithful = 0;
   double longest = 0.0;
-};
+  double seconds = 0.0;
 
-void sweep(const std::string& file, const TriangleMesh& mesh, std::size_t count, int firstSeed,
-  int seeds, Tally& tally)
-{
-  const MeshReport wanted = checkMesh(mesh);
-  const Fineness fineness = finenessOf(mesh, count);
-  std::printf("%-28s genus %2lld in %zu; thin %3.0f%%, gap %3.0f%% |",
-    file.substr(file.rfind('/') + 1).c_str(), static_cast<long long>(wanted.genus()),
-    wanted.components, 100.0 * fineness.thin, 100.0 * fineness.gap);
-  bool all = true;
-  double slowest = 0.0;
-  for (int seed = firstSeed; seed < firstSeed + seeds; ++seed)
+  bool add(const Trial& trial, const MeshReport& wanted)
   {
-    const std::vector<Vec3> points = randomSurfacePoints(mesh, count, std::uint64_t(seed));
-    const auto start = std::chrono::steady_clock::now();
-    const ReconstructedSurface surface = reconstruct(points);
-    const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
-    const MeshReport report = checkMesh(surface.mesh);
-    const bool faithful = report.closedManifold() && report.genus() == wanted.genus() &&
-      report.components == wanted.components;
-    slowest = std::max(slowest, time.count());
-    ++tally.runs;
-    tally.closed += report.closedManifold();
-    tally.faithful += faithful;
-    all = all && faithful;
-    if (faithful)
+    const bool right =
+      trial.closed && trial.genus == wanted.genus() && trial.components == wanted.components;
+    ++runs;
+    closed += trial.closed;
+    faithful += right;
+    longest = std::max(longest, trial.seconds);
+    seconds += trial.seconds;
+    if (right)
     {
       std::printf(" ok");
     }
+    else if (!trial.done)
+    {
+      std::printf(" failed");
+    }
     else
     {
-      std::printf(" %lld in %zu%s", static_cast<long long>(report.genus()), report.components,
-        report.closedManifold() ? "" : " NOT CLOSED");
+      std::printf(" %lld in %zu%s", static_cast<long long>(trial.genus), trial.components,
+        trial.closed ? "" : " NOT CLOSED");
     }
+    return right;
   }
-  std::printf(" | %.2f s\n", slowest);
-  std::fflush(stdout);
-  ++tally.meshes;
-  tally.faithfulMeshes += all;
-  tally.longest = std::max(tally.longest, slowest);
+};
+
+using Tallies = std::array<Tally, kMethods.size()>;
+
+void sweep(const std::string& file, const TriangleMesh& mesh, std::size_t count, int firstSeed,
+  int seeds, bool peers, Tallies& tallies)
+{
+  const MeshReport wanted = checkMesh(mesh);
+  const Fineness fineness = finenessOf(mesh, count);
+  std::printf("%-28s genus %2lld in %zu; thin %3.0f%%, gap %3.0f%%",
+    file.substr(file.rfind('/') + 1).c_str(), static_cast<long long>(wanted.genus()),
+    wanted.components, 100.0 * fineness.thin, 100.0 * fineness.gap);
+  for (std::size_t k = 0; k < (peers ? kMethods.size() : 1); ++k)
+  {
+    std::printf(" |");
+    bool all = true;
+    for (int seed = firstSeed; seed < firstSeed + seeds; ++seed)
+    {
+      const std::vector<Vec3> points = randomSurfacePoints(mesh, count, std::uint64_t(seed));
+      const Trial trial = peers ? tryApart(kMethods[k], points) : tryMethod(kMethods[k], points);
+      all = tallies[k].add(trial, wanted) && all;
+      std::fflush(stdout);
+    }
+    ++tallies[k].meshes;
+    tallies[k].faithfulMeshes += all;
+  }
+  std::printf("\n");
+}
+
+void printTallies(const Tallies& tallies)
+{
+  for (std::size_t k = 0; k < tallies.size() && tallies[k].runs > 0; ++k)
+  {
+    const Tally& tally = tallies[k];
+    std::printf(
+      "%s: %d of %d runs have components and genus of the mesh, %d are closed "
+      "2-manifolds; all seeds right on %d of %d meshes; slowest %.2f s, together %.1f s\n",
+      kMethods[k].name, tally.faithful, tally.runs, tally.closed, tally.faithfulMeshes,
+      tally.meshes, tally.longest, tally.seconds);
+  }
 }
 
 } // namespace
@@ -193,7 +285,8 @@ int main(int argc, char** argv)
   std::size_t count = 20000;
   int seeds = 3;
   int firstSeed = 1;
-  Tally tally;
+  bool peers = false;
+  Tallies tallies;
   for (int k = 1; k < argc; ++k)
   {
     if (argv[k][0] == '-' && k + 1 < argc)
@@ -206,6 +299,9 @@ int main(int argc, char** argv)
           break;
         case 's':
           seeds = value;
+          break;
+        case 'p':
+          peers = value != 0;
           break;
         default:
           firstSeed = value;
@@ -226,10 +322,8 @@ int main(int argc, char** argv)
       std::printf("%s: left out, %s\n", argv[k], report.describe().c_str());
       continue;
     }
-    sweep(argv[k], *repaired.mesh, count, firstSeed, seeds, tally);
+    sweep(argv[k], *repaired.mesh, count, firstSeed, seeds, peers, tallies);
   }
-  std::printf("%d of %d runs have components and genus of the mesh, %d are closed 2-manifolds; all "
-              "seeds right on %d of %d meshes; slowest %.2f s\n",
-    tally.faithful, tally.runs, tally.closed, tally.faithfulMeshes, tally.meshes, tally.longest);
+  printTallies(tallies);
   return 0;
 }
