@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "reconstruction/ConvectedSolid.h"
 
+#include "reconstruction/BallSides.h"
 #include "reconstruction/FacetSize.h"
 #include "reconstruction/Front.h"
 #include "reconstruction/Holes.h"
@@ -16,7 +17,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <sstream>
+#include <utility>
 
 namespace hybridtree
 {
@@ -34,6 +37,11 @@ constexpr double kPolesOfHoles = 1.5;
 constexpr double kFewUsed = 0.9;
 // It is kept if it reaches this many times as many.
 constexpr double kMoreUsed = 1.05;
+// Where points that lie together are hidden, the empty balls are asked (BallSides.h). What they say
+// is taken if it leaves at most this share of the hidden points hidden, and if they agree: at most
+// this share of the points is contradicted.
+constexpr double kFewerHidden = 0.5;
+constexpr double kContradicted = 0.0025;
 
 // Whether no solid was found, or but crumbs along the surface of something open: none of them
 // touches a hundredth of the points.
@@ -104,8 +112,8 @@ Solid solidFromHull(
   return solid(tetrahedra, sizes, regions, false, Voids::Filled, progress);
 }
 
-// Share of the points that are on the boundary of a solid.
-double shareUsed(
+// Per point: whether it is on the boundary of a solid.
+std::vector<std::uint8_t> usedBy(
   const Tetrahedralization& tetrahedra, const Solid& inside, const Progress& progress)
 {
   std::vector<std::uint8_t> used(tetrahedra.points().size(), 0);
@@ -116,7 +124,74 @@ double shareUsed(
       used[vertex] = 1;
     }
   }
+  return used;
+}
+
+double share(const std::vector<std::uint8_t>& used)
+{
   return double(std::count(used.begin(), used.end(), 1)) / double(used.size());
+}
+
+// Whether points that are not used lie together: single ones are noise, or where a surface is
+// sharp; many, a wall, a hole or a gap that was not entered.
+bool someAreHidden(
+  const Tetrahedralization& tetrahedra, const FacetSize& sizes, std::vector<std::uint8_t> used)
+{
+  constexpr std::size_t kMany = 16;
+  constexpr double kNear = 2.0; // spacings
+  const auto& points = tetrahedra.points();
+  std::vector<std::int32_t> group;
+  for (std::int32_t seed = 0; seed < static_cast<std::int32_t>(used.size()); ++seed)
+  {
+    if (used[seed])
+    {
+      continue;
+    }
+    group.assign(1, seed);
+    used[seed] = 1;
+    for (std::size_t k = 0; k < group.size(); ++k)
+    {
+      const double reach = kNear * sizes.spacing(group[k]);
+      for (const std::int32_t cell : tetrahedra.star(group[k]))
+      {
+        for (const std::int32_t other : tetrahedra.cell(cell))
+        {
+          if (other != Tetrahedralization::kInfinite && !used[other] &&
+            (points[other] - points[group[k]]).norm() < reach)
+          {
+            used[other] = 1;
+            group.push_back(other);
+          }
+        }
+      }
+    }
+    if (group.size() >= kMany)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+// The solid that the empty balls tell, if it hides much less than one that uses those points.
+std::optional<Solid> solidByBalls(const Tetrahedralization& tetrahedra, const FacetSize& sizes,
+  const std::vector<std::uint8_t>& used, const Progress& progress)
+{
+  if (!someAreHidden(tetrahedra, sizes, used))
+  {
+    return std::nullopt;
+  }
+  BallSides sides = findSidesByBalls(tetrahedra, sizes, progress);
+  repairSolid(tetrahedra, sides.inside, Voids::Filled, progress);
+  const double before = share(used);
+  const double now = share(usedBy(tetrahedra, sides.inside, progress));
+  const bool clear =
+    sides.contradicted <= kContradicted && 1.0 - now < kFewerHidden * (1.0 - before);
+  if (clear || (before < kFewUsed && now > kMoreUsed * before))
+  {
+    return std::move(sides.inside);
+  }
+  return std::nullopt;
 }
 
 void checkMemory(std::size_t points, std::size_t limit)
@@ -216,21 +291,28 @@ std::vector<std::uint8_t> convectSolid(const Tetrahedralization& tetrahedra,
   Solid inside =
     solid(tetrahedra, sizes, findRegions(tetrahedra, sizes, kWide, options.pocketFactor, progress),
       options.openPockets, Voids::Filled, ProgressPart(progress, 0.1, 0.7));
-  double used = shareUsed(tetrahedra, inside, progress);
+  std::vector<std::uint8_t> used = usedBy(tetrahedra, inside, progress);
   // At first as mouths are wide; then, as where a part is missing, no mouth is taken for granted.
   for (const double mouth : { options.pocketFactor, std::numeric_limits<double>::infinity() })
   {
-    if (used < kFewUsed)
+    if (share(used) < kFewUsed)
     {
       sides.mouth = mouth;
       sides.poles = std::isinf(mouth) ? kPolesOfHoles : kPoles;
       Solid other = bySides(0.7, 0.8);
-      const double otherUsed = shareUsed(tetrahedra, other, progress);
-      if (otherUsed > kMoreUsed * used)
+      std::vector<std::uint8_t> otherUsed = usedBy(tetrahedra, other, progress);
+      if (share(otherUsed) > kMoreUsed * share(used))
       {
         inside.swap(other);
-        used = otherUsed;
+        used.swap(otherUsed);
       }
+    }
+  }
+  if (options.openPockets)
+  {
+    if (auto other = solidByBalls(tetrahedra, sizes, used, ProgressPart(progress, 0.8, 0.9)))
+    {
+      inside.swap(*other);
     }
   }
   if (solidIsMissing(tetrahedra, inside))

@@ -61,6 +61,8 @@ struct ReconstructedSurface
 ///   thin sampling; this also finds the pockets to be opened;
 /// - the flow changes the topology last, and only where it is blocked by a membrane wider than the
 ///   sampling (Front.h), so thin walls are not torn and uneven sampling makes no handles;
+/// - where points are then left hidden, the empty balls of the tetrahedra are asked (BallSides.h),
+///   and what they say is taken if it is clear: fine holes, gaps and walls;
 /// - the few vertices where it meets itself are mended to a manifold at the end by passing or
 ///   taking back single tetrahedra (SolidRepair.h).
 /// Without closeHoles the flow starts from that part of the hull that is of the outside's colour
