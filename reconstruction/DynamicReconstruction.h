@@ -132,7 +132,8 @@ private:
   void takeBack();
   void takeBackTo(const LevelOfDetail& detail, const Progress& progress);
   void refine(const Phase& phase, const Progress& progress);
-  bool refineOnce(const Phase& phase, const Progress& progress);
+  bool refineOnce(
+    const Phase& phase, const std::vector<std::int32_t>& triangles, const Progress& progress);
   bool place(const Phase& phase, std::int32_t point);
   bool reach(const Phase& phase, std::int32_t point);
   void offerFarthest(const Phase& phase, std::int32_t triangle);

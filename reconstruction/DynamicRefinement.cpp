@@ -23,10 +23,17 @@ constexpr int kMostRounds = 10;
 
 void DynamicReconstruction::refine(const Phase& phase, const Progress& progress)
 {
+  state_->near.forgive();
+  std::vector<std::int32_t> triangles = state_->surface.surface();
   int tries = 0;
-  while (
-    this->refineOnce(phase, progress) && this->vertexCount() < phase.vertices && ++tries < kTries)
+  while (this->refineOnce(phase, triangles, progress) && this->vertexCount() < phase.vertices &&
+    ++tries < kTries)
   {
+    triangles.clear(); // all others have been seen to
+    for (const std::int32_t point : state_->near.forgive())
+    {
+      triangles.push_back(state_->near.triangle(point));
+    }
   }
   // What was refused may be near to triangles that it was not measured against.
   if (phase.tolerance > 0.0)
@@ -35,13 +42,14 @@ void DynamicReconstruction::refine(const Phase& phase, const Progress& progress)
   }
 }
 
-// In rounds, each of the farthest points. \returns whether any was refused, and others placed.
-bool DynamicReconstruction::refineOnce(const Phase& phase, const Progress& progress)
+// In rounds, each of the farthest points of these triangles and of those that replace them.
+// \returns whether any was refused, and others placed.
+bool DynamicReconstruction::refineOnce(
+  const Phase& phase, const std::vector<std::int32_t>& triangles, const Progress& progress)
 {
   candidates_.clear();
   waiting_ = {};
-  state_->near.forgive();
-  for (const std::int32_t triangle : state_->surface.surface())
+  for (const std::int32_t triangle : triangles)
   {
     this->offerFarthest(phase, triangle);
   }

@@ -296,21 +296,26 @@ std::int32_t DynamicSurface::facetTowards(
 bool DynamicSurface::keepsManifold(const Hole& hole) const
 {
   // Edges that facets on both sides have cancel; the others part inside from outside.
-  std::vector<Edge> edges = hole.edges;
-  const auto ends = [](const Edge& edge) { return std::minmax({ edge.from, edge.to }); };
-  std::sort(
-    edges.begin(), edges.end(), [&](const Edge& a, const Edge& b) { return ends(a) < ends(b); });
+  std::vector<std::uint64_t> edges(hole.edges.size()); // lower end, higher end, which is first
+  std::transform(hole.edges.begin(), hole.edges.end(), edges.begin(),
+    [](const Edge& edge)
+    {
+      const auto [low, high] = std::minmax({ edge.from + 1, edge.to + 1 }); // kInfinite is -1
+      return std::uint64_t(low) << 32 | std::uint64_t(high) << 1 |
+        std::uint64_t(edge.to < edge.from);
+    });
+  std::sort(edges.begin(), edges.end());
   std::vector<Edge> loop;
   for (std::size_t k = 0; k < edges.size(); ++k)
   {
-    if (k + 1 < edges.size() && ends(edges[k]) == ends(edges[k + 1]))
+    if (k + 1 < edges.size() && edges[k] >> 1 == edges[k + 1] >> 1)
     {
       ++k;
+      continue;
     }
-    else
-    {
-      loop.push_back(edges[k]);
-    }
+    const auto low = static_cast<std::int32_t>(edges[k] >> 32) - 1;
+    const auto high = static_cast<std::int32_t>(edges[k] >> 1 & 0x7fffffffu) - 1;
+    loop.push_back((edges[k] & 1) != 0 ? Edge{ high, low } : Edge{ low, high });
   }
   // One loop: each of its vertices is left once, and who walks along it is back after all edges.
   std::sort(loop.begin(), loop.end(), [](const Edge& a, const Edge& b) { return a.from < b.from; });

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 
 namespace hybridtree
 {
@@ -99,12 +100,20 @@ bool DynamicSurface::clear(const std::vector<std::int32_t>& cells)
   const auto inside = static_cast<std::size_t>(std::count_if(
     cells.begin(), cells.end(), [&](std::int32_t cell) { return inside_[cell] != 0; }));
   const std::uint8_t fewer = 2 * inside <= cells.size() ? 1 : 0;
+  // Else two moves could undo each other for ever.
+  constexpr std::size_t kLately = 32; // steps
+  const auto lately = steps_.end() - static_cast<std::ptrdiff_t>(std::min(kLately, steps_.size()));
+  const auto movedLately = [&](std::int32_t cell)
+  {
+    return std::any_of(
+      lately, steps_.end(), [&](const Step& step) { return step.flipped == cell; });
+  };
   std::int32_t best = -1;
   int bestRank = 3;
   for (const std::int32_t cell : cells)
   {
     const int rank = this->openFacets(cell) == 3 ? 1 : inside_[cell] == fewer ? 0 : 2;
-    if (rank < bestRank && this->mayFlip(cell))
+    if (rank < bestRank && !movedLately(cell) && this->mayFlip(cell))
     {
       best = cell;
       bestRank = rank;

@@ -2,6 +2,7 @@
 #include "reconstruction/PointOctree.h"
 
 #include "reconstruction/ParallelSort.h"
+#include "reconstruction/SpreadBits.h"
 
 #include "core/base/Parallel.h"
 
@@ -27,38 +28,18 @@ constexpr int kFirstLevels = 4;
 // of eight children meet a smooth one.
 constexpr double kGrazed = 0.04;
 
-// The lowest 21 bits, two zeros between each two.
-std::uint64_t spread(std::uint64_t bits)
-{
-  bits = (bits | bits << 32) & 0x1f00000000ffffull;
-  bits = (bits | bits << 16) & 0x1f0000ff0000ffull;
-  bits = (bits | bits << 8) & 0x100f00f00f00f00full;
-  bits = (bits | bits << 4) & 0x10c30c30c30c30c3ull;
-  return (bits | bits << 2) & 0x1249249249249249ull;
-}
-
-std::uint64_t gather(std::uint64_t bits)
-{
-  bits &= 0x1249249249249249ull;
-  bits = (bits | bits >> 2) & 0x10c30c30c30c30c3ull;
-  bits = (bits | bits >> 4) & 0x100f00f00f00f00full;
-  bits = (bits | bits >> 8) & 0x1f0000ff0000ffull;
-  bits = (bits | bits >> 16) & 0x1f00000000ffffull;
-  return (bits | bits >> 32) & 0x1fffffull;
-}
-
 using Place = std::array<std::int64_t, 3>; // of a cell among those of its level
 
 std::uint64_t keyOf(const Place& place)
 {
-  return spread(std::uint64_t(place[0])) | spread(std::uint64_t(place[1])) << 1 |
-    spread(std::uint64_t(place[2])) << 2;
+  return spreadBits(std::uint64_t(place[0])) | spreadBits(std::uint64_t(place[1])) << 1 |
+    spreadBits(std::uint64_t(place[2])) << 2;
 }
 
 Place placeOf(std::uint64_t key)
 {
-  return { std::int64_t(gather(key)), std::int64_t(gather(key >> 1)),
-    std::int64_t(gather(key >> 2)) };
+  return { std::int64_t(gatherBits(key)), std::int64_t(gatherBits(key >> 1)),
+    std::int64_t(gatherBits(key >> 2)) };
 }
 
 struct Sortable
@@ -230,19 +211,29 @@ double PointOctree::splitInto(std::size_t cells)
   }
   std::sort(steps.begin(), steps.end());
   steps.insert(steps.begin(), -1.0);
-  // More leaves the lower the roughness: bisection.
+  // More leaves the lower the roughness, about as many more as there are cells between: regula
+  // falsi, with the middle in every other step, since that may be far from it.
+  constexpr double kAim = 0.99;
   std::size_t fine = 0;
   std::size_t coarse = steps.size() - 1;
+  double finest = double(points_.size());
+  double coarsest = 1.0;
   double chosen = 0.0;
-  for (bool near = false; !near;)
+  bool near = false;
+  for (int step = 0; !near; ++step)
   {
-    const std::size_t middle = (fine + coarse) / 2;
+    const double share =
+      step % 2 == 0 ? (finest - kAim * double(cells)) / std::max(1.0, finest - coarsest) : 0.5;
+    const auto at =
+      fine + static_cast<std::size_t>(std::clamp(share, 0.0, 1.0) * double(coarse - fine));
+    const std::size_t next = coarse - fine > 1 ? std::clamp(at, fine + 1, coarse - 1) : fine;
     this->splitFirstLevels(cells / 4);
-    this->splitRougher(steps[middle]);
+    this->splitRougher(steps[next]);
     const std::size_t leaves = this->leafCount();
-    (leaves > cells ? fine : coarse) = middle;
+    (leaves > cells ? fine : coarse) = next;
+    (leaves > cells ? finest : coarsest) = double(leaves);
     near = coarse - fine <= 1 || (leaves <= cells && 50 * leaves > 49 * cells);
-    chosen = steps[middle];
+    chosen = steps[next];
   }
   return chosen;
 }

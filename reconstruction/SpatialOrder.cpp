@@ -2,6 +2,7 @@
 #include "reconstruction/SpatialOrder.h"
 
 #include "reconstruction/ParallelSort.h"
+#include "reconstruction/SpreadBits.h"
 
 #include "core/base/Error.h"
 #include "core/base/Parallel.h"
@@ -29,6 +30,12 @@ struct Sortable
   }
 };
 
+// All bits 0, or 1 where the bit is set. Branches on bits would be guessed wrong half of the time.
+std::uint32_t maskOf(std::uint32_t bits, std::uint32_t bit)
+{
+  return 0u - std::uint32_t((bits & bit) != 0);
+}
+
 // Place on the Hilbert curve, by J. Skilling, Programming the Hilbert curve (2004).
 std::uint64_t hilbertKey(std::array<std::uint32_t, 3> x)
 {
@@ -37,16 +44,10 @@ std::uint64_t hilbertKey(std::array<std::uint32_t, 3> x)
     const std::uint32_t below = bit - 1;
     for (std::uint32_t& axis : x)
     {
-      if ((axis & bit) != 0)
-      {
-        x[0] ^= below;
-      }
-      else
-      {
-        const std::uint32_t swapped = (x[0] ^ axis) & below;
-        x[0] ^= swapped;
-        axis ^= swapped;
-      }
+      const std::uint32_t set = maskOf(axis, bit);
+      const std::uint32_t swapped = (x[0] ^ axis) & below & ~set;
+      x[0] ^= swapped | (below & set);
+      axis ^= swapped;
     }
   }
   x[1] ^= x[0];
@@ -54,17 +55,9 @@ std::uint64_t hilbertKey(std::array<std::uint32_t, 3> x)
   std::uint32_t flip = 0;
   for (std::uint32_t bit = 1u << (kBits - 1); bit > 1; bit >>= 1)
   {
-    flip ^= (x[2] & bit) != 0 ? bit - 1 : 0;
+    flip ^= maskOf(x[2], bit) & (bit - 1);
   }
-  std::uint64_t key = 0;
-  for (int bit = kBits; bit-- > 0;)
-  {
-    for (const std::uint32_t axis : x)
-    {
-      key = key << 1 | ((axis ^ flip) >> bit & 1u);
-    }
-  }
-  return key;
+  return spreadBits(x[0] ^ flip) << 2 | spreadBits(x[1] ^ flip) << 1 | spreadBits(x[2] ^ flip);
 }
 
 // Round in which a point is inserted, 0 for seven of eight, 1 for seven of eight of the others ...

@@ -1,16 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "reconstruction/TrianglePoints.h"
 
+#include "core/base/Parallel.h"
 #include "core/geometry/PointTriangle.h"
-#include "core/mesh/MeshDistance.h"
+#include "core/mesh/MeshBvh.h"
+#include "core/mesh/NearestKernels.h"
 
 #include <cmath>
 #include <cstddef>
-#include <memory>
 #include <utility>
 
 namespace hybridtree
 {
+namespace
+{
+
+constexpr std::size_t kGrain = 4096;
+
+} // namespace
 
 void TrianglePoints::measure(
   const std::vector<std::int32_t>& points, const DynamicSurface& surface, const Progress& progress)
@@ -21,34 +28,38 @@ void TrianglePoints::measure(
   {
     return;
   }
-  auto mesh = std::make_shared<TriangleMesh>();
-  mesh->points = surface.sites();
+  TriangleMesh mesh;
+  mesh.points = surface.sites();
+  mesh.triangles.reserve(triangles.size());
   for (const std::int32_t triangle : triangles)
   {
-    mesh->triangles.push_back(surface.triangle(triangle));
+    mesh.triangles.push_back(surface.triangle(triangle));
   }
-  const MeshDistance distances(mesh);
-  progress.check();
+  const MeshBvh bvh(mesh);
   const std::size_t count = points.size();
   std::vector<double> coordinates(3 * count);
-  std::vector<double> distance(count);
+  std::vector<double> squared(count);
   std::vector<std::int32_t> nearest(count);
-  std::vector<double> foot(3 * count);
-  for (std::size_t k = 0; k < count; ++k)
-  {
-    for (std::size_t axis = 0; axis < 3; ++axis)
+  parallelFor(count, kGrain,
+    [&](std::size_t begin, std::size_t end)
     {
-      coordinates[axis * count + k] = (*points_)[points[k]][static_cast<Eigen::Index>(axis)];
-    }
-  }
-  const double* at = coordinates.data();
-  distances.nearest({ at, at + count, at + 2 * count, count },
-    std::numeric_limits<double>::infinity(), distance.data(), nearest.data(),
-    { foot.data(), foot.data() + count, foot.data() + 2 * count });
-  progress.check();
+      progress.check();
+      for (std::size_t k = begin; k < end; ++k)
+      {
+        for (std::size_t axis = 0; axis < 3; ++axis)
+        {
+          coordinates[axis * count + k] = (*points_)[points[k]][static_cast<Eigen::Index>(axis)];
+        }
+      }
+      const double* at = coordinates.data() + begin;
+      const std::size_t size = end - begin;
+      findNearest({ &mesh, &bvh, nullptr, { at, at + count, at + 2 * count, size }, nullptr, size,
+                    std::numeric_limits<double>::infinity() },
+        squared.data() + begin, nearest.data() + begin);
+    });
   for (std::size_t k = 0; k < count; ++k)
   {
-    this->move(points[k], triangles[nearest[k]], distance[k]);
+    this->move(points[k], triangles[nearest[k]], std::sqrt(squared[k]));
   }
 }
 
@@ -56,14 +67,22 @@ void TrianglePoints::clear()
 {
   first_.clear();
   states_.assign(points_->size(), State());
+  refused_.clear();
 }
 
-void TrianglePoints::forgive()
+void TrianglePoints::refuse(std::int32_t point)
 {
-  for (State& state : states_)
+  states_[point].refused = true;
+  refused_.push_back(point);
+}
+
+std::vector<std::int32_t> TrianglePoints::forgive()
+{
+  for (const std::int32_t point : refused_)
   {
-    state.refused = false;
+    states_[point].refused = false;
   }
+  return std::exchange(refused_, {});
 }
 
 void TrianglePoints::put(std::int32_t point, std::int32_t triangle, double distance)

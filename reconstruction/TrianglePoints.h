@@ -30,10 +30,12 @@ public:
   std::int32_t triangle(std::int32_t point) const { return states_[point].triangle; }
   /// Whether the surface would not take the point up, until its triangle changes.
   bool refused(std::int32_t point) const { return states_[point].refused; }
-  void refuse(std::int32_t point) { states_[point].refused = true; }
-  void forgive();
+  void refuse(std::int32_t point);
+  /// \returns all that were refused since, some of them no longer.
+  std::vector<std::int32_t> forgive();
 
-  /// Puts points with the triangles that are nearest of all the surface's. In parallel.
+  /// Puts points with the triangles that are nearest of all the surface's. In parallel; fastest
+  /// where neighbours follow each other.
   /// \throws Cancelled.
   void measure(const std::vector<std::int32_t>& points, const DynamicSurface& surface,
     const Progress& progress);
@@ -77,8 +79,9 @@ private:
   const std::vector<Vec3>* points_;
   std::vector<State> states_;       // per point
   std::vector<std::int32_t> first_; // per number of a triangle
-  std::vector<std::int32_t> pool_;  // scratch
-  std::vector<New> news_;           // scratch
+  std::vector<std::int32_t> refused_;
+  std::vector<std::int32_t> pool_; // scratch
+  std::vector<New> news_;          // scratch
 };
 
 } // namespace hybridtree

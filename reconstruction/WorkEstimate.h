@@ -3,7 +3,10 @@
 
 #include "reconstruction/LevelOfDetail.h"
 
+#include "core/base/Types.h"
+
 #include <cstddef>
+#include <vector>
 
 namespace hybridtree
 {
@@ -15,15 +18,17 @@ struct WorkEstimate
   /// Memory of the process while it works, above what it had. About a third more than was measured
   /// on surfaces; within a factor of 3.
   double bytes = 0.0;
-  /// On two cores of 2.6 GHz with nothing else to do: the order of magnitude elsewhere.
+  /// On two cores of 2.6 GHz with nothing else to do, within a factor of 2 for all points or a
+  /// number of vertices; the order of magnitude elsewhere.
   double seconds = 0.0;
 };
 
 /// Of all points.
 WorkEstimate estimateWork(std::size_t points);
 
-/// At a level of detail. How many vertices a tolerance needs is known only afterwards: a fourth of
-/// the points is taken, which is more than most need.
-WorkEstimate estimateWork(std::size_t points, const LevelOfDetail& detail);
+/// At a level of detail. How many vertices a tolerance needs is known only afterwards: seven for
+/// each time that it goes into the diagonal of the points are taken: of scans and samples mostly
+/// within a factor of 3.
+WorkEstimate estimateWork(const std::vector<Vec3>& points, const LevelOfDetail& detail);
 
 } // namespace hybridtree

@@ -293,7 +293,7 @@ void vtkHybridTreeReconstruction::Reconstruct(vtkDataSet* input, vtkPolyData* ou
   }
   this->TellEstimate(points.size(),
     this->LevelOfDetail == ALL_POINTS ? estimateWork(points.size())
-                                      : estimateWork(points.size(), detail));
+                                      : estimateWork(points, detail));
   ReconstructedSurface surface = keep   ? this->Kept->update(points, detail, options, part)
     : this->LevelOfDetail == ALL_POINTS ? reconstruct(points, options, part)
                                         : reconstruct(points, detail, options, part);

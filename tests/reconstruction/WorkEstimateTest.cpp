@@ -71,7 +71,7 @@ TEST(WorkEstimate, TellsTheMemoryOfALevelOfDetailWithinAFactorOfThree)
     SCOPED_TRACE(detail.vertices);
     const PeakMemory memory;
     reconstruct(points, detail, {}, memory);
-    const double estimate = estimateWork(points.size(), detail).bytes;
+    const double estimate = estimateWork(points, detail).bytes;
     EXPECT_LT(memory.peak(), 3.0 * estimate);
     EXPECT_GT(memory.peak(), estimate / 3.0);
   }
