@@ -8,21 +8,7 @@ namespace
 
 constexpr std::uint64_t kAllBits = ~std::uint64_t(0);
 
-unsigned bitCount(std::uint64_t bits)
-{
-  bits -= bits >> 1 & 0x5555555555555555u;
-  bits = (bits & 0x3333333333333333u) + (bits >> 2 & 0x3333333333333333u);
-  bits = (bits + (bits >> 4)) & 0x0f0f0f0f0f0f0f0fu;
-  return static_cast<unsigned>(bits * 0x0101010101010101u >> 56);
-}
-
 } // namespace
-
-std::uint32_t Brick::vertexRank(unsigned axis, unsigned x, unsigned y, unsigned z) const
-{
-  const std::uint64_t before = (std::uint64_t(1) << (kBrickSide * y + x)) - 1;
-  return rank[axis][z] + bitCount(crossed[axis][z] & before);
-}
 
 void Brick::countVertices()
 {
@@ -70,20 +56,6 @@ void CornerSigns::findCrossedEdges(std::array<BrickBits, 3>& crossed) const
       crossed[axis][z] = bits[axis];
     }
   }
-}
-
-unsigned CornerSigns::cellCase(unsigned x, unsigned y, unsigned z) const
-{
-  const auto pair = [x](unsigned row) { return row >> x & 3u; };
-  return pair(rows[z][y]) | pair(rows[z][y + 1]) << 2 | pair(rows[z + 1][y]) << 4 |
-    pair(rows[z + 1][y + 1]) << 6;
-}
-
-bool CornerSigns::uniformRow(unsigned y, unsigned z) const
-{
-  const unsigned all = rows[z][y] & rows[z][y + 1] & rows[z + 1][y] & rows[z + 1][y + 1];
-  const unsigned any = rows[z][y] | rows[z][y + 1] | rows[z + 1][y] | rows[z + 1][y + 1];
-  return any == 0 || all == 0x1ff;
 }
 
 CornerSigns gatherSigns(

@@ -11,6 +11,14 @@ namespace hybridtree
 
 inline constexpr int kBrickPoints = kBrickSide * kBrickSide * kBrickSide;
 
+inline unsigned bitCount(std::uint64_t bits)
+{
+  bits -= bits >> 1 & 0x5555555555555555u;
+  bits = (bits & 0x3333333333333333u) + (bits >> 2 & 0x3333333333333333u);
+  bits = (bits + (bits >> 4)) & 0x0f0f0f0f0f0f0f0fu;
+  return static_cast<unsigned>(bits * 0x0101010101010101u >> 56);
+}
+
 /// One bit for each of a brick's 8^3 points: bit 8 y + x of word z.
 using BrickBits = std::array<std::uint64_t, kBrickSide>;
 
@@ -33,7 +41,11 @@ struct Brick
   std::uint32_t firstTriangle = 0;
 
   /// Number within the brick of the vertex on a crossed edge.
-  std::uint32_t vertexRank(unsigned axis, unsigned x, unsigned y, unsigned z) const;
+  std::uint32_t vertexRank(unsigned axis, unsigned x, unsigned y, unsigned z) const
+  {
+    const std::uint64_t before = (std::uint64_t(1) << (kBrickSide * y + x)) - 1;
+    return rank[axis][z] + bitCount(crossed[axis][z] & before);
+  }
   /// Fills rank and vertexCount from crossed.
   void countVertices();
 };
@@ -46,9 +58,19 @@ struct CornerSigns
   bool uniform() const;
   void findCrossedEdges(std::array<BrickBits, 3>& crossed) const;
   /// Bit c of the case of cell (x, y, z): corner c is inside.
-  unsigned cellCase(unsigned x, unsigned y, unsigned z) const;
-  /// Every corner of the cells in row (y, z) is on one side.
-  bool uniformRow(unsigned y, unsigned z) const;
+  unsigned cellCase(unsigned x, unsigned y, unsigned z) const
+  {
+    const auto pair = [x](unsigned row) { return row >> x & 3u; };
+    return pair(rows[z][y]) | pair(rows[z][y + 1]) << 2 | pair(rows[z + 1][y]) << 4 |
+      pair(rows[z + 1][y + 1]) << 6;
+  }
+  /// Bit x of row (y, z): the cell has corners on both sides.
+  unsigned crossedCells(unsigned y, unsigned z) const
+  {
+    const unsigned all = rows[z][y] & rows[z][y + 1] & rows[z + 1][y] & rows[z + 1][y + 1];
+    const unsigned any = rows[z][y] | rows[z][y + 1] | rows[z + 1][y] | rows[z + 1][y + 1];
+    return (any | any >> 1) & ~(all & all >> 1) & 0xffu;
+  }
 };
 
 /// \param contents as Brick::neighbours; the bits of those >= 0 are in `bricks`.

@@ -26,13 +26,13 @@ void forEachCrossedCell(const CornerSigns& signs, Body&& body)
   {
     for (unsigned y = 0; y < kBrickSide; ++y)
     {
-      for (unsigned x = 0; x < kBrickSide && !signs.uniformRow(y, z); ++x)
+      const unsigned crossed = signs.crossedCells(y, z);
+      for (unsigned x = 0; crossed >> x != 0; ++x)
       {
-        const unsigned number = signs.cellCase(x, y, z);
-        const MarchingCubesTable::Case& way = table[number];
-        if (way.loopCount > 0)
+        if ((crossed >> x & 1u) != 0)
         {
-          body(CrossedCell{ way, number, { x, y, z } });
+          const unsigned number = signs.cellCase(x, y, z);
+          body(CrossedCell{ table[number], number, { x, y, z } });
         }
       }
     }

@@ -147,6 +147,12 @@ private:
   std::uint64_t countedPoints(const Brick& brick, unsigned z) const
   {
     const Index3 first = this->firstPoint(brick);
+    const std::int64_t last = kBrickSide - 1;
+    if (lattice_.contains({ first[0], first[1], first[2] + z }) &&
+      lattice_.contains({ first[0] + last, first[1] + last, first[2] + z }))
+    {
+      return ~std::uint64_t(0);
+    }
     std::uint64_t bits = 0;
     for (unsigned n = 0; n < kBrickSide * kBrickSide; ++n)
     {
@@ -295,9 +301,10 @@ private:
     const Index3 first = this->firstPoint(brick);
     for (unsigned z = 0; z < kBrickSide; ++z)
     {
-      for (unsigned n = 0; n < kBrickSide * kBrickSide; ++n)
+      const std::uint64_t crossed = brick.crossed[axis][z];
+      for (unsigned n = 0; n < kBrickSide * kBrickSide && crossed >> n != 0; ++n)
       {
-        if ((brick.crossed[axis][z] >> n & 1u) == 0)
+        if ((crossed >> n & 1u) == 0)
         {
           continue;
         }

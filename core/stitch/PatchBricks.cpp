@@ -45,16 +45,6 @@ Halo gather(const PatchBrick& brick, const std::vector<PatchBrick>& bricks)
   return halo;
 }
 
-unsigned bitCount(std::uint64_t bits)
-{
-  unsigned count = 0;
-  for (; bits != 0; bits &= bits - 1)
-  {
-    ++count;
-  }
-  return count;
-}
-
 } // namespace
 
 std::int32_t PatchBrick::vertexOn(unsigned axis, int x, int y, int z) const
