@@ -24,7 +24,9 @@ namespace
 // Points that are evaluated together: few enough that their box is small where points come in
 // order.
 constexpr std::size_t kSlice = 256;
-constexpr std::size_t kFewPoints = 32; // whose box is small against a radius of influence, mostly
+// Whose box is small against a radius of influence, mostly; and where values take long, of meshes.
+constexpr std::size_t kNearPoints = 128;
+constexpr std::size_t kFewPoints = 32;
 
 // A nested blend's terms are taken over up to this many: a chain of blends of shared children has
 // exponentially many.
@@ -337,14 +339,35 @@ private:
     return reaching;
   }
 
+  /// What is 0 only where the field is. The bounds of a mesh tell that of many points at once.
+  static void valuesOrSigns(const Node& node, PointBatch points, double* value)
+  {
+    if (!node.isFaceted())
+    {
+      node.field(points, value);
+      return;
+    }
+    for (std::size_t begin = 0; begin < points.size; begin += kFewPoints)
+    {
+      const PointBatch few = points.slice(begin, std::min(kFewPoints, points.size - begin));
+      const Interval range = node.range(boundsOf(few));
+      if (range.min > 0.0 || range.max < 0.0 || (range.min == 0.0 && range.max == 0.0))
+      {
+        std::fill_n(value + begin, few.size, range.max);
+        continue;
+      }
+      node.field(few, value + begin);
+    }
+  }
+
   /// sole[k]: the term whose field alone is not 0 at the point.
-  /// \pre at most kFewPoints points
+  /// \pre at most kNearPoints points
   void findSoleTerms(PointBatch points, std::int32_t* sole) const
   {
     // Full lengths throughout, for the compiler; what is behind the points counts as reached.
-    std::array<double, kFewPoints> value;
-    std::array<std::int32_t, kFewPoints> reached{}; // how often
-    std::array<std::int32_t, kFewPoints> last;
+    std::array<double, kNearPoints> value;
+    std::array<std::int32_t, kNearPoints> reached{}; // how often
+    std::array<std::int32_t, kNearPoints> last;
     last.fill(kNone);
     for (const Reaching& reaching : this->reachingTerms(boundsOf(points)))
     {
@@ -352,11 +375,11 @@ private:
       value.fill(1.0);
       if (!reaching.isNowhereZero())
       {
-        term.node->field(points, value.data());
+        Blend::valuesOrSigns(*term.node, points, value.data());
       }
       const std::int32_t often = std::min(term.count, 2);
       std::int32_t least = 2;
-      for (std::size_t k = 0; k < kFewPoints; ++k)
+      for (std::size_t k = 0; k < kNearPoints; ++k)
       {
         reached[k] += value[k] != 0.0 ? often : 0;
         last[k] = value[k] != 0.0 ? reaching.term : last[k];
@@ -376,10 +399,10 @@ private:
   void sliceSourceLeaf(PointBatch points, std::int32_t* leaf) const
   {
     std::array<std::int32_t, kSlice> sole;
-    for (std::size_t begin = 0; begin < points.size; begin += kFewPoints)
+    for (std::size_t begin = 0; begin < points.size; begin += kNearPoints)
     {
       this->findSoleTerms(
-        points.slice(begin, std::min(kFewPoints, points.size - begin)), &sole[begin]);
+        points.slice(begin, std::min(kNearPoints, points.size - begin)), &sole[begin]);
     }
     std::vector<std::int32_t> found;
     for (std::size_t k = 0; k < points.size; ++k)
