@@ -25,6 +25,7 @@
 #include <cstdlib>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <time.h>
 #include <vector>
@@ -215,42 +216,116 @@ void figure14(const char* name, const SkeletonGraph& graph, int level, int round
   }
 }
 
-// [SUB]'s own figure: from the coarse graph to the triangles around all pieces, as in the preview.
+// [SUB]'s own figure, from the coarse graph to the triangles around all pieces, as in the preview;
+// and one query there, of which the element that its point belongs to is known.
+class KnownElements
+{
+public:
+  KnownElements(const SkeletonGraph& graph, int level, KernelKind kernel)
+    : graph_(graph), level_(level), kernel_(kernel)
+  {
+  }
+
+  /// \return the meshes. \param byElements otherwise the field wherever points are.
+  std::vector<PieceMeshPtr> mesh(BlendingKind blending, bool byElements) const
+  {
+    const NodePtr node = skeleton(graph_, level_, kernel_, blending);
+    const auto& leaf = dynamic_cast<const SubdivisionSkeleton&>(*node);
+    std::optional<SkeletonElementFields> elements;
+    if (byElements)
+    {
+      elements.emplace(leaf, SkeletonElementFields::Sums::Own);
+    }
+    return pieceMeshes(
+      { leaf.coarse(), leaf.refined(), level_, leaf, 2.0, 0, byElements ? &*elements : nullptr },
+      {});
+  }
+
+  /// Seconds a query at all vertices of the meshes of [SUB]'s blending, by elements: all,
+  /// neighbours and paper.
+  std::vector<double> query(int rounds) const
+  {
+    std::map<std::int32_t, PointList> points;
+    std::size_t count = 0;
+    std::size_t most = 0;
+    for (const PieceMeshPtr& piece : this->mesh(BlendingKind::Paper, true))
+    {
+      for (std::size_t k = 0; k < piece->points.size(); ++k)
+      {
+        PointList& list = points[piece->elements[k]];
+        list.add(piece->points[k]);
+        most = std::max(most, list.size());
+        ++count;
+      }
+    }
+    std::vector<double> value(most);
+    VectorList gradient(most);
+    const VectorBatch slopes = gradient;
+    std::vector<NodePtr> nodes;
+    std::vector<std::unique_ptr<SkeletonElementFields>> fields;
+    std::vector<Work> works;
+    for (const BlendingKind blending : kBlendings)
+    {
+      nodes.push_back(skeleton(graph_, level_, kernel_, blending));
+      fields.push_back(std::make_unique<SkeletonElementFields>(
+        dynamic_cast<const SubdivisionSkeleton&>(*nodes.back()), SkeletonElementFields::Sums::Own));
+      works.push_back(
+        [&, field = fields.back().get()]
+        {
+          for (const auto& [element, list] : points)
+          {
+            field->evaluate(element, list.batch(), value.data(), &slopes);
+          }
+        });
+    }
+    std::vector<double> seconds = times(works, rounds);
+    for (double& of : seconds)
+    {
+      of /= double(count);
+    }
+    return seconds;
+  }
+
+  static constexpr std::array<BlendingKind, 3> kBlendings = { BlendingKind::All,
+    BlendingKind::Neighbours, BlendingKind::Paper };
+
+private:
+  SkeletonGraph graph_;
+  int level_;
+  KernelKind kernel_;
+};
+
 void figure14Meshes(const char* name, const SkeletonGraph& graph, int level, int rounds)
 {
   setThreadCount(1);
   for (const KernelKind kernel : { KernelKind::Compact, KernelKind::Cauchy })
   {
-    std::size_t triangles = 0;
-    const auto make = [&](BlendingKind blending, bool byElements)
+    const KnownElements known(graph, level, kernel);
+    const std::vector<double> query = known.query(rounds);
+    std::array<std::size_t, 4> triangles;
+    std::vector<Work> works = { [&]
+      { triangles[3] = joinPieces(known.mesh(BlendingKind::All, false)).triangles.size(); } };
+    for (std::size_t k = 0; k < 3; ++k)
     {
-      const NodePtr node = skeleton(graph, level, kernel, blending);
-      const auto& leaf = dynamic_cast<const SubdivisionSkeleton&>(*node);
-      std::optional<SkeletonElementFields> elements;
-      if (byElements)
-      {
-        elements.emplace(leaf, SkeletonElementFields::Sums::Own);
-      }
-      const SkeletonField field{ leaf.coarse(), leaf.refined(), level, leaf, 2.0, 0,
-        byElements ? &*elements : nullptr };
-      triangles = joinPieces(pieceMeshes(field, {})).triangles.size();
-    };
-    std::vector<Work> works;
-    for (const BlendingKind blending :
-      { BlendingKind::All, BlendingKind::Neighbours, BlendingKind::Paper })
-    {
-      works.push_back([&, blending] { make(blending, false); });
-      works.push_back([&, blending] { make(blending, true); });
+      works.push_back(
+        [&, k]
+        {
+          const auto pieces = known.mesh(KnownElements::kBlendings[k], true);
+          triangles[k] = joinPieces(pieces).triangles.size();
+        });
     }
-    const std::vector<double> seconds = times(works, rounds);
-    std::printf("%-8s %5d %-8s %9zu", name, level,
-      kernel == KernelKind::Compact ? "compact" : "cauchy", triangles);
-    for (const double time : seconds)
+    const std::vector<double> meshes = times(works, rounds);
+    std::printf("%-8s %5d %-8s", name, level, kernel == KernelKind::Compact ? "compact" : "cauchy");
+    for (const double seconds : query)
     {
-      std::printf(" %9.2f", 1e3 * time);
+      std::printf(" %9.3f", 1e6 * seconds);
     }
-    const double all = std::min(seconds[0], seconds[1]);
-    std::printf(" %9.2f %9.2f\n", all / std::min(seconds[2], seconds[3]), all / seconds[5]);
+    for (const double seconds : meshes)
+    {
+      std::printf(" %9.2f", 1e3 * seconds);
+    }
+    std::printf(" %9zu %9zu %7.1f %7.1f %7.1f\n", triangles[0], triangles[2], query[0] / query[2],
+      meshes[1] / meshes[3], meshes[0] / meshes[3]);
   }
 }
 
@@ -394,15 +469,21 @@ int main(int argc, char** argv)
     figure14("bretzel", bretzel(), level, rounds);
     figure14("alien", alien(), level, rounds);
   }
-  std::printf("\nFigure 14: milliseconds of processor time for the meshes of all pieces, with the "
-              "field wherever points are\nand near the elements that they belong to (paper: of "
-              "that element and its neighbours alone)\n"
-              "shape    level kernel   triangles       all    +known neighbours    +known     paper"
-              "    +known     all/n     all/p\n");
-  for (const int level : { 0, 1, 2 })
+  std::printf(
+    "\nFigure 14 where elements are known, as [SUB] has it: microseconds a query, value and "
+    "gradient; milliseconds for\nthe meshes of all pieces, first by places, then by elements; "
+    "triangles; all beside paper: queries, meshes, those by\nplaces. Paper: the element and its "
+    "neighbours alone.\n"
+    "shape    level kernel      q. all q. neighb  q. paper    places       all neighbours     "
+    "paper "
+    "tri., all  tri., p.   query  meshes  places\n");
+  for (const int level : { 0, 1, 2, 3 })
   {
-    figure14Meshes("bretzel", bretzel(), level, rounds);
-    figure14Meshes("alien", alien(), level, rounds);
+    figure14Meshes("bretzel", bretzel(), level, std::min(rounds, 5));
+    if (level < 3)
+    {
+      figure14Meshes("alien", alien(), level, std::min(rounds, 5));
+    }
   }
   std::printf(
     "\nOne triangle, edges in units of R: nanoseconds a point; ratios to the closed form\n"

@@ -8,6 +8,7 @@
 #include "benchmarks/support/RatioReporter.h"
 #include "core/base/Parallel.h"
 #include "core/nodes/LatticeMesh.h"
+#include "core/nodes/SkeletonElementFields.h"
 #include "core/nodes/SubdivisionSkeleton.h"
 #include "core/subdivision/SkeletonMesh.h"
 #include "tests/support/SkeletonShapes.h"
@@ -59,7 +60,8 @@ public:
       return latticeMesh(*node, kCell, Progress::none()).triangles.size();
     }
     const double reach = options_.blending.kind == BlendingKind::All ? 2.0 : 6.0;
-    const SkeletonField field{ leaf.coarse(), leaf.refined(), kLevel, leaf, reach, 0 };
+    const SkeletonElementFields elements(leaf, SkeletonElementFields::Sums::Own);
+    const SkeletonField field{ leaf.coarse(), leaf.refined(), kLevel, leaf, reach, 0, &elements };
     if (make == Make::Joined)
     {
       SkeletonMeshOptions options;

@@ -105,7 +105,7 @@ public:
   ///@{
   /**
    * What blends: EVERYTHING (0, default) that is near in space; NEIGHBOURS (1), only parts that are
-   * near each other along the skeleton, which takes ten times as long or more; or PAPER (2),
+   * near each other along the skeleton, which takes up to about twice as long; or PAPER (2),
    * elements that touch, the less the farther along, as [SUB] 5 has it, for comparison. What does
    * not blend is united.
    */

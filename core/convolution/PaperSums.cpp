@@ -175,105 +175,182 @@ void PaperSums::evaluate(std::int32_t group, const ConvolutionKernel& kernel, Po
   }
 }
 
-// The fields of some groups at some points, and the sums of them.
+// The largest sums at some points. Groups are integrated when their sum, or one that they are in,
+// may be the largest.
 class PaperSums::Largest
 {
 public:
   Largest(const PaperSums& sums, const BlendSelection& selection, const ConvolutionField& whole,
     PointBatch points, bool haveGradients)
     : sums_(sums)
+    , selection_(selection)
+    , whole_(whole)
     , points_(points)
     , haveGradients_(haveGradients)
     , numbers_(sums.neighbours_.size())
+    , isKnown_(selection.units.size(), 0)
     , rows_(selection.units.size() * this->step())
+    , best_(points.size)
+    , total_(points.size)
+    , winners_(points.size, 0)
   {
-    std::fill_n(rows_.data(), rows_.size(), 0.0);
-    for (std::size_t unit = 0; unit < selection.units.size(); ++unit)
+    for (const BlendSelection::Group& group : selection.groups)
     {
-      numbers_.add(selection.groups[unit].group);
-      if (haveGradients)
-      {
-        whole.addFieldAndGradient(
-          selection.elementsOf(unit), points, this->field(unit), this->gradient(unit));
-      }
-      else
-      {
-        whole.addField(selection.elementsOf(unit), points, this->field(unit));
-      }
+      numbers_.add(group.group);
     }
+    std::fill_n(best_.data(), best_.size(), -1.0);
+    this->findBest();
   }
 
-  /// The largest sum at a point, and its gradient unless null.
-  double at(std::size_t k, Vec3* gradient)
+  double value(std::size_t k) const { return best_.data()[k]; }
+
+  Vec3 gradient(std::size_t k)
   {
-    std::size_t winner = 0;
-    for (std::size_t unit = 1; unit < numbers_.size(); ++unit)
-    {
-      winner = this->field(unit)[k] > this->field(winner)[k] ? unit : winner;
-    }
-    double best = this->sum(winner, k, nullptr);
-    for (std::size_t unit = 0; unit < numbers_.size(); ++unit)
-    {
-      // No f_j counts more than f_i.
-      if (unit != winner &&
-        this->field(unit)[k] * static_cast<double>(1 + this->neighbours(unit).size()) > best)
+    const std::size_t unit = winners_[k];
+    const double own = this->field(unit)[k];
+    Vec3 slope = this->gradients(unit)[k];
+    this->forNeighbours(unit,
+      [&](const Neighbour& neighbour, std::size_t other)
       {
-        const double other = this->sum(unit, k, nullptr);
-        winner = other > best ? unit : winner;
-        best = std::max(best, other);
-      }
-    }
-    return gradient ? this->sum(winner, k, gradient) : best;
+        const double u = neighbour.parameter(points_[k]);
+        const double field = this->field(other)[k];
+        const bool isCut = own < field;
+        slope += sums_.share_(u) * this->gradients(isCut ? unit : other)[k] +
+          sums_.share_.slope(u) * std::min(own, field) * neighbour.slope;
+      });
+    return slope;
   }
 
 private:
   std::size_t step() const { return (haveGradients_ ? 4 : 1) * points_.size; }
-  double* field(std::size_t unit) { return rows_.data() + unit * this->step(); }
-  VectorBatch gradient(std::size_t unit)
+  VectorBatch gradients(std::size_t unit)
   {
-    double* first = this->field(unit) + points_.size;
+    double* first = rows_.data() + unit * this->step() + points_.size;
     return { first, first + points_.size, first + 2 * points_.size };
   }
-  const std::vector<Neighbour>& neighbours(std::size_t unit) const
+
+  const double* field(std::size_t unit)
   {
-    return sums_.neighbours_[static_cast<std::size_t>(numbers_.group(unit))];
+    double* row = rows_.data() + unit * this->step();
+    if (!isKnown_[unit])
+    {
+      isKnown_[unit] = 1;
+      std::fill_n(row, this->step(), 0.0);
+      if (haveGradients_)
+      {
+        whole_.addFieldAndGradient(
+          selection_.elementsOf(unit), points_, row, this->gradients(unit));
+      }
+      else
+      {
+        whole_.addField(selection_.elementsOf(unit), points_, row);
+      }
+    }
+    return row;
   }
 
-  double sum(std::size_t unit, std::size_t k, Vec3* gradient)
+  // Those that have a field here.
+  template <typename Body>
+  void forNeighbours(std::size_t unit, const Body& body) const
   {
-    const double own = this->field(unit)[k];
-    double total = own;
-    Vec3 slope = gradient ? this->gradient(unit)[k] : Vec3(Vec3::Zero());
-    for (const Neighbour& neighbour : this->neighbours(unit))
+    for (const Neighbour& neighbour :
+      sums_.neighbours_[static_cast<std::size_t>(numbers_.group(unit))])
     {
-      if (numbers_.find(neighbour.group) < 0)
+      const std::int32_t other = numbers_.find(neighbour.group);
+      if (other >= 0)
       {
-        continue;
-      }
-      const auto other = static_cast<std::size_t>(numbers_.find(neighbour.group));
-      const double u = neighbour.parameter(points_[k]);
-      const double share = sums_.share_(u);
-      const bool isCut = own < this->field(other)[k];
-      const double field = isCut ? own : this->field(other)[k];
-      total += share * field;
-      if (gradient)
-      {
-        slope += share * this->gradient(isCut ? unit : other)[k] +
-          sums_.share_.slope(u) * field * neighbour.slope;
+        body(neighbour, static_cast<std::size_t>(other));
       }
     }
-    if (gradient)
+  }
+
+  // Of the field of each unit at the points. What reaches a place is integrated in any case; fields
+  // without end mostly need not be.
+  std::vector<double> bounds()
+  {
+    Box3 box;
+    for (std::size_t k = 0; k < points_.size; ++k)
     {
-      *gradient = slope;
+      box.extend(points_[k]);
     }
-    return total;
+    std::vector<double> bounds;
+    for (std::size_t unit = 0; unit < isKnown_.size(); ++unit)
+    {
+      FieldBounds of;
+      if (whole_.kernel().kind == KernelKind::Cauchy)
+      {
+        whole_.addBounds(selection_.elementsOf(unit), box, of);
+      }
+      else
+      {
+        const double* field = this->field(unit);
+        of.value = *std::max_element(field, field + points_.size);
+      }
+      bounds.push_back(of.value);
+    }
+    return bounds;
+  }
+
+  void findBest()
+  {
+    const std::vector<double> bounds = this->bounds();
+    std::vector<double> most = bounds; // of the sums
+    std::vector<std::size_t> order(bounds.size());
+    for (std::size_t unit = 0; unit < bounds.size(); ++unit)
+    {
+      order[unit] = unit;
+      this->forNeighbours(unit,
+        [&](const Neighbour&, std::size_t other)
+        { most[unit] += std::min(bounds[unit], bounds[other]); });
+    }
+    std::sort(
+      order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return most[a] > most[b]; });
+    double least = -1.0;
+    for (const std::size_t unit : order)
+    {
+      if (most[unit] <= least)
+      {
+        return;
+      }
+      this->tryOut(unit);
+      least = *std::min_element(best_.data(), best_.data() + points_.size);
+    }
+  }
+
+  void tryOut(std::size_t unit)
+  {
+    const double* own = this->field(unit);
+    std::copy_n(own, points_.size, total_.data());
+    this->forNeighbours(unit,
+      [&](const Neighbour& neighbour, std::size_t other)
+      {
+        const double* field = this->field(other);
+        for (std::size_t k = 0; k < points_.size; ++k)
+        {
+          total_[k] += sums_.share_(neighbour.parameter(points_[k])) * std::min(own[k], field[k]);
+        }
+      });
+    for (std::size_t k = 0; k < points_.size; ++k)
+    {
+      if (total_[k] > best_[k])
+      {
+        best_[k] = total_[k];
+        winners_[k] = unit;
+      }
+    }
   }
 
   const PaperSums& sums_;
+  const BlendSelection& selection_;
+  const ConvolutionField& whole_;
   PointBatch points_;
   bool haveGradients_;
   GroupNumbers numbers_; // those of units
-  ScratchArray rows_;    // per unit
+  std::vector<char> isKnown_;
+  ScratchArray rows_; // per unit
+  ScratchArray best_;
+  ScratchArray total_;
+  std::vector<std::size_t> winners_;
 };
 
 void PaperSums::largest(const BlendSelection& selection, const ConvolutionField& whole,
@@ -287,11 +364,10 @@ void PaperSums::largest(const BlendSelection& selection, const ConvolutionField&
     Largest largest(*this, selection, whole, some, gradient != nullptr);
     for (std::size_t k = 0; k < some.size; ++k)
     {
-      Vec3 slope;
-      value[begin + k] = largest.at(k, gradient ? &slope : nullptr);
+      value[begin + k] = largest.value(k);
       if (gradient)
       {
-        gradient->set(begin + k, slope);
+        gradient->set(begin + k, largest.gradient(k));
       }
     }
   }

@@ -94,6 +94,7 @@ void Refiner::placeCage(const PieceCage& cage, const std::vector<SkeletonAxis>& 
     addPoint(axes[k].base + t * axes[k].direction,
       steep ? Vec3(-gradient[k].normalized()) : axes[k].direction, isFound);
     mesh_.bases.push_back(axes[k].base);
+    mesh_.elements.push_back(axes[k].element);
     axes[k].start = t;
   }
   mesh_.axes = std::move(axes);
@@ -216,6 +217,7 @@ void Refiner::addMiddles(const std::vector<std::int32_t>& edges)
     addPoint(axes[k].base + (isFound ? found[k] : 0.0) * axes[k].direction,
       steep ? Vec3(-gradient[k].normalized()) : axes[k].direction, isFound);
     mesh_.bases.push_back(0.5 * (mesh_.bases[of.a] + mesh_.bases[of.b]));
+    mesh_.elements.push_back(of.element);
     radii_.push_back(0.5 * (radii_[of.a] + radii_[of.b]));
   }
 }

@@ -26,6 +26,7 @@ struct PieceMesh
   std::vector<Vec3> normals;           ///< -grad f / |grad f|; along the axis where not settled
   std::vector<std::uint8_t> onSurface; ///< per point: 0 inside of other pieces, where no surface is
   std::vector<Vec3> bases;             ///< per point: the place of the skeleton it belongs to
+  std::vector<std::int32_t> elements;  ///< per point: the coarse element, as SkeletonAxis::element
   std::vector<Triangle> triangles;
   std::vector<SkeletonAxis> axes; ///< of the cage; start is where the vertex was found
 };

@@ -143,7 +143,7 @@ private:
 
 std::size_t bytesOf(const PieceMesh& mesh)
 {
-  return mesh.points.size() * (3 * sizeof(Vec3) + 1) + mesh.triangles.size() * sizeof(Triangle) +
+  return mesh.points.size() * (3 * sizeof(Vec3) + 5) + mesh.triangles.size() * sizeof(Triangle) +
     mesh.axes.size() * sizeof(SkeletonAxis) + sizeof(PieceMesh);
 }
 
