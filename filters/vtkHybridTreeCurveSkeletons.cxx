@@ -39,10 +39,11 @@ public:
       return;
     }
     this->Radius = input->GetPointData()->GetArray(radiusArray.c_str());
-    if (!this->Radius || this->Radius->GetNumberOfComponents() != 1)
+    if (!this->Radius || this->Radius->GetNumberOfComponents() != 1 ||
+      this->Radius->GetNumberOfTuples() < input->GetNumberOfPoints())
     {
-      throw hybridtree::InvalidParameter(
-        "RadiusArray", radiusArray, "a point array of one component of the input, or \"None\"");
+      throw hybridtree::InvalidParameter("RadiusArray", radiusArray,
+        "a point array of one component of the input, with a value for each point, or \"None\"");
     }
   }
 

@@ -111,12 +111,20 @@ bool staysBehind(vtkDataSetAttributes* data, vtkAbstractArray* array)
     array == data->GetGlobalIds() || array->GetDataType() == VTK_VARIANT;
 }
 
-void gather(vtkDataSetAttributes* data, vtkIdList* rows, const std::string& prefix, LeafArrays& to)
+/// Arrays that do not have all `count` values are told of in `warnings` and left out.
+void gather(vtkDataSetAttributes* data, vtkIdType count, vtkIdList* rows, const std::string& prefix,
+  LeafArrays& to, std::vector<std::string>& warnings)
 {
   for (int k = 0; k < data->GetNumberOfArrays(); ++k)
   {
     vtkAbstractArray* array = data->GetAbstractArray(k);
-    if (!staysBehind(data, array))
+    if (array->GetNumberOfTuples() < count)
+    {
+      warnings.push_back("The array \"" + nameOf(array) + "\" has " +
+        std::to_string(array->GetNumberOfTuples()) + " values for " + std::to_string(count) +
+        " points or cells of the input: it is left out.");
+    }
+    else if (!staysBehind(data, array))
     {
       const std::string name = prefix + nameOf(array);
       const auto part = arrayLike(array, name);
@@ -409,15 +417,18 @@ MeshLookup meshesIn(vtkFieldData* data)
 
 // ---------------------------------------------------------------------------- arrays
 
-LeafArrays arraysOf(vtkPolyData* input, const ConvertedMesh& leaf)
+LeafArrays arraysOf(
+  vtkPolyData* input, const ConvertedMesh& leaf, std::vector<std::string>& warnings)
 {
   const std::string hash = contentHashText(leaf.repaired.mesh) + ":";
   LeafArrays arrays;
-  gather(input->GetPointData(), pointRows(leaf.repaired), kPointData + hash, arrays);
+  gather(input->GetPointData(), input->GetNumberOfPoints(), pointRows(leaf.repaired),
+    kPointData + hash, arrays, warnings);
   vtkNew<vtkIdList> cells;
   cells->SetNumberOfIds(static_cast<vtkIdType>(leaf.cells.size()));
   std::copy(leaf.cells.begin(), leaf.cells.end(), cells->GetPointer(0));
-  gather(input->GetCellData(), cells, kCellData + hash, arrays);
+  gather(
+    input->GetCellData(), input->GetNumberOfCells(), cells, kCellData + hash, arrays, warnings);
   return arrays;
 }
 

@@ -32,9 +32,10 @@ std::vector<Leaf> leavesOf(const Node& tree);
 using LeafArrays = std::map<std::string, vtkSmartPointer<vtkAbstractArray>>;
 
 /// The arrays of an input as arrays over the points and triangles of the leaf it became. Left
-/// behind are ghost marks, global ids, and what every output of ours has of its own: normals,
-/// SourceId.
-LeafArrays arraysOf(vtkPolyData* input, const ConvertedMesh& leaf);
+/// behind are ghost marks, global ids, what every output of ours has of its own: normals, SourceId;
+/// and, with a warning, arrays that have too few values.
+LeafArrays arraysOf(
+  vtkPolyData* input, const ConvertedMesh& leaf, std::vector<std::string>& warnings);
 
 /// The leaf arrays that ride in `data`.
 LeafArrays arraysIn(vtkFieldData* data);

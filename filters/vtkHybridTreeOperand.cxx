@@ -136,7 +136,7 @@ void OperandBlock::readTriangles(vtkPolyData* input, std::vector<std::string>& n
     node_ = makeMeshNode(mesh, kPlainMaximumField, defaultInfluenceRadius(*mesh), kPlainExponent);
     append(node_->warnings(), newWarnings);
   }
-  arrays_ = arraysOf(input, mesh_);
+  arrays_ = arraysOf(input, mesh_, newWarnings);
 }
 
 bool OperandBlock::isPatch() const

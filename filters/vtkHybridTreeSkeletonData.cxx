@@ -44,10 +44,13 @@ public:
     }
     const bool automatic = radiusArray == "Automatic";
     this->Radii = input->GetPointData()->GetArray(automatic ? kRadius : radiusArray.c_str());
-    if (this->Radii ? this->Radii->GetNumberOfComponents() != 1 : !automatic)
+    if (this->Radii ? this->Radii->GetNumberOfComponents() != 1 ||
+          this->Radii->GetNumberOfTuples() < input->GetNumberOfPoints()
+                    : !automatic)
     {
       throw InvalidParameter("RadiusArray", radiusArray,
-        "a point array of one component of the input, \"Automatic\" or \"None\"");
+        "a point array of one component of the input, with a value for each point, "
+        "\"Automatic\" or \"None\"");
     }
   }
 

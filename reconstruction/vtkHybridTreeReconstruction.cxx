@@ -67,7 +67,8 @@ std::vector<hybridtree::Vec3> readNormals(
     array = input->GetPointData()->GetArray(kNormals);
   }
   std::vector<hybridtree::Vec3> normals;
-  if (array && array->GetNumberOfComponents() == 3)
+  if (array && array->GetNumberOfComponents() == 3 &&
+    array->GetNumberOfTuples() >= input->GetNumberOfPoints())
   {
     normals.resize(chosen.size());
     for (std::size_t k = 0; k < chosen.size(); ++k)
@@ -106,11 +107,19 @@ void writeGeometry(const hybridtree::TriangleMesh& mesh, int type, vtkPolyData* 
 }
 
 void writeArrays(const hybridtree::TriangleMesh& mesh, const std::vector<std::int32_t>& ids,
-  vtkPointData* input, vtkPointData* output)
+  vtkIdType points, vtkPointData* input, vtkPointData* output)
 {
   const auto count = static_cast<vtkIdType>(ids.size());
   output->CopyFieldOff(kNormals);
   output->CopyFieldOff(kPointIds);
+  for (int k = 0; k < input->GetNumberOfArrays(); ++k)
+  {
+    vtkAbstractArray* array = input->GetAbstractArray(k);
+    if (array->GetName() && array->GetNumberOfTuples() < points)
+    {
+      output->CopyFieldOff(array->GetName()); // not there for all points: VTK would read beyond it
+    }
+  }
   output->CopyAllocate(input, count);
   vtkNew<vtkDoubleArray> normals;
   normals->SetName(kNormals);
@@ -307,7 +316,8 @@ void vtkHybridTreeReconstruction::Reconstruct(vtkDataSet* input, vtkPolyData* ou
   }
 
   writeGeometry(surface.mesh, pointType(input), output);
-  writeArrays(surface.mesh, surface.pointIds, input->GetPointData(), output->GetPointData());
+  writeArrays(surface.mesh, surface.pointIds, input->GetNumberOfPoints(), input->GetPointData(),
+    output->GetPointData());
   writeSource(output);
   const auto mesh = std::make_shared<const TriangleMesh>(std::move(surface.mesh));
   vtkHybridTreeArray::PutTree(

@@ -166,6 +166,27 @@ TEST(Arrays, OneMeshWithTwoValuesIsTold)
   EXPECT_NE(messages.warnings.find("Height"), std::string::npos) << messages.warnings;
 }
 
+TEST(Arrays, ThoseWithTooFewValuesAreToldAndLeftOut)
+{
+  vtkNew<vtkSphereSource> sphere;
+  sphere->Update();
+  vtkPolyData* mesh = sphere->GetOutput();
+  vtkNew<vtkDoubleArray> few;
+  few->SetName("few");
+  few->InsertNextValue(1.0);
+  mesh->GetPointData()->AddArray(few);
+  mesh->GetCellData()->AddArray(few);
+  vtkNew<vtkHybridTreeMeshField> field;
+  field->SetInputData(mesh);
+  const Messages messages(field);
+  field->Update();
+  EXPECT_NE(messages.warnings.find("\"few\" has 1 values for 50 points"), std::string::npos)
+    << messages.warnings;
+  expectSolid(field->GetOutput());
+  EXPECT_FALSE(field->GetOutput()->GetPointData()->HasArray("few"));
+  EXPECT_FALSE(field->GetOutput()->GetCellData()->HasArray("few"));
+}
+
 TEST(Arrays, SeamsAreWelded)
 {
   vtkNew<vtkSphereSource> sphere;
