@@ -33,7 +33,7 @@ ALLOWED = {
     # No pcl/surface, pcl/io or pcl/visualization: they bring a second VTK.
     "reconstruction": [STANDARD, r"Eigen/.*", r"core/.*", r"filters/.*", r"reconstruction/.*", r"CGAL/.*",
         r"boost/.*", r"pcl/(common|features|filters|kdtree|octree|search|sample_consensus)/.*", r"pcl/[a-z_]+\.h",
-        *VTK],
+        r"sys/mman\.h", *VTK],  # for huge pages
 }
 
 
