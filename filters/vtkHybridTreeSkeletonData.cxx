@@ -26,6 +26,7 @@ namespace
 {
 
 constexpr const char* kRadius = "Radius"; // the array's usual name
+constexpr double kAutomatic = 0.03;       // radius, in longest sides of the bounds
 
 /// Collects the points that cells use.
 class GraphPoints
@@ -76,6 +77,22 @@ public:
       }
     }
     return number;
+  }
+
+  /// A radius of 0 everywhere is a share of the skeleton's extent.
+  void FitUniformRadius()
+  {
+    if (this->Radii || this->Uniform != 0.0)
+    {
+      return;
+    }
+    Box3 bounds;
+    for (const Vec3& p : this->Graph.points)
+    {
+      bounds.extend(p);
+    }
+    const double radius = bounds.isEmpty() ? 0.0 : kAutomatic * bounds.sizes().maxCoeff();
+    std::fill(this->Graph.radii.begin(), this->Graph.radii.end(), radius);
   }
 
 private:
@@ -165,6 +182,7 @@ SkeletonGraph toSkeleton(vtkPolyData* input, const std::string& radiusArray, dou
   GraphPoints points(split->GetOutput(), radiusArray, radius, graph);
   readCells(split->GetOutput()->GetLines(), points, graph.segments);
   readCells(split->GetOutput()->GetPolys(), points, graph.triangles);
+  points.FitUniformRadius();
   validate(graph);
   return graph;
 }

@@ -17,8 +17,8 @@ namespace hybridtree
 /// exactly the same place become one, so that pieces appended to each other hang together.
 /// Vertices, and points without a cell, do not count.
 /// \param radiusArray point array of one component with the radii. "Automatic": Radius, if it is
-/// there. "None", empty, or Automatic without one: `radius` everywhere. Of points that become one
-/// the first gives the radius.
+/// there. "None", empty, or Automatic without one: `radius` everywhere, and for 0 a share of 0.03 of
+/// the longest side of the skeleton's bounds. Of points that become one the first gives the radius.
 /// \throws InvalidParameter for an array that is not there; InvalidGeometry where there are neither
 /// lines nor polygons, for points that are not finite, and as validate().
 SkeletonGraph toSkeleton(vtkPolyData* input, const std::string& radiusArray, double radius);

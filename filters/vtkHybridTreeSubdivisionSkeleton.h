@@ -70,7 +70,8 @@ public:
 
   ///@{
   /**
-   * Radius of the surface where there is no RadiusArray, world units, > 0, default 0.1.
+   * Radius of the surface where there is no RadiusArray, world units, >= 0. 0 (default): 0.03 of the
+   * longest side of the input's bounds.
    */
   vtkSetMacro(Radius, double);
   vtkGetMacro(Radius, double);
@@ -190,7 +191,7 @@ protected:
   int FillInputPortInformation(int port, vtkInformation* info) override;
 
   std::string RadiusArray = "Automatic";
-  double Radius = 0.1;
+  double Radius = 0.0;
   int RadiusInterpolation = LINEAR;
   int Scheme = APPROXIMATING;
   int Level = 2;

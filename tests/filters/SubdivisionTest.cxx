@@ -163,6 +163,21 @@ TEST(SubdivisionSkeleton, StraightSkeletonHasItsRadius)
   }
 }
 
+TEST(SubdivisionSkeleton, DefaultRadiusFitsTheInput)
+{
+  for (const double length : { 0x1p-10, 1.0, 500.0 }) // as float, too
+  {
+    vtkNew<vtkLineSource> line;
+    line->SetPoint1(0, 0, 0);
+    line->SetPoint2(length, 0, 0);
+    vtkNew<vtkHybridTreeSubdivisionSkeleton> rod;
+    rod->SetInputConnection(line->GetOutputPort());
+    rod->Update();
+    EXPECT_GT(rod->GetOutput()->GetNumberOfPolys(), 0);
+    EXPECT_NEAR(fieldAt(*rod->GetTree(), { 0.5 * length, 0.03 * length, 0.0 }), kThreshold, 1e-9);
+  }
+}
+
 TEST(SubdivisionSkeleton, PiecesAtTheSamePlaceHangTogether)
 {
   vtkNew<vtkLineSource> line;
