@@ -2,10 +2,13 @@
 #include "reconstruction/Convection.h"
 
 #include "reconstruction/ConvectedSolid.h"
+#include "reconstruction/EstimateNormals.h"
 #include "reconstruction/Holes.h"
 #include "reconstruction/SolidBoundary.h"
 #include "reconstruction/SpatialOrder.h"
 #include "reconstruction/Tetrahedralization.h"
+
+#include "core/mesh/MeshChecks.h"
 
 #include <algorithm>
 
@@ -39,6 +42,48 @@ void appendBoundary(const Tetrahedralization& tetrahedra, const std::vector<std:
   }
 }
 
+// Above this share of the points a sheet is taken as it is, without looking for a better one.
+constexpr double kNearlyAll = 0.99;
+
+ReconstructedSurface sheetBy(const Tetrahedralization& tetrahedra, const ConvectionOptions& options,
+  SiteNormals normals, const Progress& progress)
+{
+  ReconstructedSurface sheet;
+  appendBoundary(tetrahedra, convectSheet(tetrahedra, options, normals, progress), sheet, progress);
+  openHoles(sheet, tetrahedra.points(), options.holeFactor, progress);
+  return sheet;
+}
+
+// Clearly more points in no more pieces.
+bool isBetter(const ReconstructedSurface& sheet, const ReconstructedSurface& than)
+{
+  constexpr double kMore = 1.01;
+  return double(sheet.pointIds.size()) > kMore * double(than.pointIds.size()) &&
+    checkMesh(sheet.mesh).components <= checkMesh(than.mesh).components;
+}
+
+// Sizes tell sides where most of a solid is there. What lies open on both sides, as a landscape,
+// has no inside that they could see, but it is mostly smooth: there normals can be estimated.
+ReconstructedSurface bestSheet(const Tetrahedralization& tetrahedra,
+  const ConvectionOptions& options, SiteNormals normals, const Progress& progress)
+{
+  const std::vector<Vec3>& points = tetrahedra.points();
+  ReconstructedSurface sheet =
+    sheetBy(tetrahedra, options, normals, ProgressPart(progress, 0.0, 0.5));
+  if (normals || double(sheet.pointIds.size()) >= kNearlyAll * double(points.size()))
+  {
+    return sheet;
+  }
+  const std::vector<Vec3> estimated = estimateNormals(points, ProgressPart(progress, 0.5, 0.6));
+  if (estimated.empty())
+  {
+    return sheet;
+  }
+  ReconstructedSurface other =
+    sheetBy(tetrahedra, options, &estimated, ProgressPart(progress, 0.6, 1.0));
+  return isBetter(other, sheet) ? other : sheet;
+}
+
 // Through which points the sheet goes, if it finds one; else the boundary of the solid.
 ReconstructedSurface convect(const Tetrahedralization& tetrahedra, const ConvectionOptions& options,
   SiteNormals normals, const Progress& progress)
@@ -46,9 +91,7 @@ ReconstructedSurface convect(const Tetrahedralization& tetrahedra, const Convect
   ReconstructedSurface surface;
   if (!options.closeHoles)
   {
-    appendBoundary(
-      tetrahedra, convectSheet(tetrahedra, options, normals, progress), surface, progress);
-    openHoles(surface, tetrahedra.points(), options.holeFactor, progress);
+    surface = bestSheet(tetrahedra, options, normals, progress);
     if (2 * surface.pointIds.size() > tetrahedra.points().size())
     {
       return surface;

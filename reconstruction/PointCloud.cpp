@@ -145,8 +145,9 @@ Vec3 projected(const Vec3& point, const std::vector<Vec3>& around, double radius
   return std::isfinite(height) ? Vec3(point + height * radius * axes.col(0)) : point;
 }
 
-// Calls, on several threads, visit(k, squares) for each point of the cloud: the squared distances
-// to itself and its nearest neighbours, in rising order. \pre there are more points than neighbors.
+// Calls, on several threads, visit(k, nearest, squares) for each point of the cloud: itself and its
+// nearest neighbours, in rising order of the squared distances. \pre there are more points than
+// neighbors.
 template <typename Visit>
 void forNeighbors(
   const FloatCloud& scaled, int neighbors, const Progress& progress, const Visit& visit)
@@ -163,7 +164,7 @@ void forNeighbors(
       for (std::size_t k = begin; k < end; ++k)
       {
         tree.nearestKSearch((*scaled.cloud)[k], neighbors + 1, nearest, squares);
-        visit(k, squares);
+        visit(k, nearest, squares);
       }
     });
 }
@@ -175,7 +176,7 @@ std::vector<double> meanDistances(const std::vector<Vec3>& points,
 {
   std::vector<double> distances(chosen.size());
   forNeighbors(toFloat(points, chosen), neighbors, progress,
-    [&](std::size_t k, const std::vector<float>& squares)
+    [&](std::size_t k, const pcl::Indices&, const std::vector<float>& squares)
     {
       const auto add = [](double sum, float square) { return sum + std::sqrt(double(square)); };
       distances[k] = std::accumulate(squares.begin(), squares.end(), 0.0, add) / neighbors;
@@ -349,9 +350,29 @@ std::vector<double> surfaceDensity(const std::vector<Vec3>& points,
   const FloatCloud scaled = toFloat(points, chosen);
   const double pi = std::acos(-1.0);
   forNeighbors(scaled, count, progress,
-    [&](std::size_t k, const std::vector<float>& squares)
+    [&](std::size_t k, const pcl::Indices&, const std::vector<float>& squares)
     { density[k] = count * scaled.scale * scaled.scale / (pi * double(squares.back())); });
   return density;
+}
+
+std::vector<std::int32_t> nearestNeighbors(
+  const std::vector<Vec3>& points, int neighbors, const Progress& progress)
+{
+  const std::size_t count = static_cast<std::size_t>(neighbors);
+  std::vector<std::int32_t> result(points.size() * count);
+  forNeighbors(toFloat(points, allPoints(points)), neighbors, progress,
+    [&](std::size_t k, const pcl::Indices& nearest, const std::vector<float>&)
+    {
+      std::size_t place = k * count;
+      for (const auto index : nearest) // it may not be the first itself, where points coincide
+      {
+        if (static_cast<std::size_t>(index) != k && place < (k + 1) * count)
+        {
+          result[place++] = index;
+        }
+      }
+    });
+  return result;
 }
 
 std::vector<NearestPoint> nearestPoints(

@@ -58,6 +58,11 @@ std::vector<double> surfaceDensity(const std::vector<Vec3>& points,
   const std::vector<std::int32_t>& chosen, int neighbors,
   const Progress& progress = Progress::none());
 
+/// The `neighbors` nearest of all points to each of them, itself left out, nearest first: point k's
+/// at [k * neighbors, (k + 1) * neighbors). \pre 1 <= neighbors < number of points.
+std::vector<std::int32_t> nearestNeighbors(
+  const std::vector<Vec3>& points, int neighbors, const Progress& progress = Progress::none());
+
 /// Of some points the nearest to a place, and how far off it is.
 struct NearestPoint
 {

@@ -182,6 +182,46 @@ std::vector<Vec3> landscape(std::size_t count, std::uint64_t seed)
   return points;
 }
 
+double heightOf(int shape, double x, double y)
+{
+  return shape == 0
+    ? 0.3 * std::sin(3.0 * x) * std::cos(2.0 * y)
+    : 0.6 * std::exp(-2.0 * ((x - 2.0) * (x - 2.0) + (y - 1.5) * (y - 1.5))) + // a hill, and waves
+      0.02 * std::sin(15.0 * x) * std::sin(13.0 * y);
+}
+
+class Landscape : public testing::TestWithParam<int>
+{
+};
+
+// One sheet that looks to one side, though nobody says which: not half a shell on both. Among
+// random points a handle may be left.
+TEST_P(Landscape, IsOneSheet)
+{
+  for (const std::uint64_t seed : { 20u, 21u })
+  {
+    std::vector<Vec3> points = landscape(10000, seed);
+    for (Vec3& p : points)
+    {
+      p.z() = heightOf(GetParam(), p.x(), p.y());
+    }
+    const ReconstructedSurface surface = reconstruct(points, open());
+    expectManifold(surface, points);
+    const MeshReport report = checkMesh(surface.mesh);
+    EXPECT_EQ(report.components, 1u);
+    EXPECT_GE(report.eulerCharacteristic, -3) << report.describe();
+    EXPECT_GT(surface.mesh.points.size(), points.size() * 97 / 100);
+    double up = 0.0;
+    for (std::size_t t = 0; t < surface.mesh.triangles.size(); ++t)
+    {
+      up += 0.5 * areaNormal(surface.mesh, t).z();
+    }
+    EXPECT_GT(std::abs(up), 0.95 * 4.0 * 3.0);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Shapes, Landscape, testing::Range(0, 2));
+
 TEST(OpenSurface, LooksWhereTheNormalsDo)
 {
   const std::vector<Vec3> points = landscape(4000, 7);
