@@ -54,12 +54,13 @@ ReconstructedSurface sheetBy(const Tetrahedralization& tetrahedra, const Convect
   return sheet;
 }
 
-// Clearly more points in no more pieces.
+// Clearly more points in no more pieces, or anything where nothing is.
 bool isBetter(const ReconstructedSurface& sheet, const ReconstructedSurface& than)
 {
   constexpr double kMore = 1.01;
   return double(sheet.pointIds.size()) > kMore * double(than.pointIds.size()) &&
-    checkMesh(sheet.mesh).components <= checkMesh(than.mesh).components;
+    (than.mesh.triangles.empty() ||
+      checkMesh(sheet.mesh).components <= checkMesh(than.mesh).components);
 }
 
 // Sizes tell sides where most of a solid is there. What lies open on both sides, as a landscape,
