@@ -19,7 +19,7 @@ struct ElementSpan
 };
 
 /// Elements that count share(slope . p + offset) at p, where share falls from 1 at 0 to 0 at 1 as
-/// BlendShare does.
+/// BlendShare does; those of the first of a list count whole.
 struct SharedElements
 {
   ElementSpan<SegmentElement> segments;
@@ -41,6 +41,7 @@ struct ConvolutionKernels
     ElementSpan<TriangleElement>, const ConvolutionKernel&, PointBatch, double* sum);
   void (*addTrianglesWithGradient)(ElementSpan<TriangleElement>, const ConvolutionKernel&,
     PointBatch, double* sum, VectorBatch gradientSum);
+  /// \pre the lists of the next two are not empty.
   void (*addShared)(
     const std::vector<SharedElements>&, const ConvolutionKernel&, PointBatch, double* sum);
   void (*addSharedWithGradient)(const std::vector<SharedElements>&, const ConvolutionKernel&,

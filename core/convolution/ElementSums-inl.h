@@ -126,7 +126,8 @@ struct AddSharedBody
     const V y = hn::LoadU(d, py);
     const V z = hn::LoadU(d, pz);
     Sample<Rows> total;
-    for (const SharedElements* part = begin; part != end; ++part)
+    this->addOwn(*begin, x, y, z, total);
+    for (const SharedElements* part = begin + 1; part != end; ++part)
     {
       const V u = hn::Add(dot(part->slope, x, y, z), set(part->offset));
       if (hn::AllTrue(d, hn::Ge(u, set(1.0))))
@@ -134,8 +135,7 @@ struct AddSharedBody
         continue; // counts nothing
       }
       Sample<Rows> own;
-      addScaled(part->segments, segments, segmentAmplitude, x, y, z, own);
-      addScaled(part->triangles, triangles, triangleAmplitude, x, y, z, own);
+      this->addOwn(*part, x, y, z, own);
       addShare(*part, hn::Min(hn::Max(u, hn::Zero(d)), set(1.0)), own, total);
     }
     for (std::size_t row = 0; row < Rows; ++row)
@@ -145,6 +145,15 @@ struct AddSharedBody
   }
 
 private:
+  HWY_INLINE void addOwn(const SharedElements& part, V x, V y, V z, Sample<Rows>& sum) const
+  {
+    addScaled(part.segments, segments, segmentAmplitude, x, y, z, sum);
+    if (part.triangles.count > 0)
+    {
+      addScaled(part.triangles, triangles, triangleAmplitude, x, y, z, sum);
+    }
+  }
+
   template <class Element, class Integral>
   static HWY_INLINE void addScaled(const ElementSpan<Element>& span, const Integral& integral,
     double amplitude, V x, V y, V z, Sample<Rows>& sum)

@@ -127,13 +127,52 @@ PaperSums::PaperSums(const GroupedElements& elements, const ConvolutionField& wh
   const auto touching = groupsThatTouch(elements.groups, elements.points.size());
   for (std::size_t group = 0; group < touching.size(); ++group)
   {
-    const auto own = static_cast<std::int32_t>(group);
-    shared_[group].push_back({ segments_.of(own), triangles_.of(own), Vec3::Zero(), 0.0 });
     for (const std::int32_t other : touching[group])
     {
-      const Neighbour& added = neighbours_[group].emplace_back(neighbour(elements, group, other));
-      shared_[group].push_back(
-        { segments_.of(other), triangles_.of(other), added.slope, added.offset });
+      neighbours_[group].push_back(neighbour(elements, group, other));
+    }
+  }
+  this->findShared();
+}
+
+void PaperSums::findShared()
+{
+  const auto append = [](const auto& span, auto& list)
+  { list.insert(list.end(), span.elements, span.elements + span.count); };
+  // Lists may move while they grow: pointers follow.
+  for (std::size_t group = 0; group < neighbours_.size(); ++group)
+  {
+    std::vector<Neighbour> others = neighbours_[group];
+    const auto key = [](const Neighbour& of) {
+      return std::array<double, 4>{ of.slope.x(), of.slope.y(), of.slope.z(), of.offset };
+    };
+    std::stable_sort(others.begin(), others.end(),
+      [&](const Neighbour& a, const Neighbour& b) { return key(a) < key(b); });
+    others.insert(others.begin(), { static_cast<std::int32_t>(group), Vec3::Zero(), 0.0 });
+    for (std::size_t k = 0; k < others.size(); ++k)
+    {
+      const std::array<std::size_t, 2> before = { sharedSegments_.size(), sharedTriangles_.size() };
+      append(segments_.of(others[k].group), sharedSegments_);
+      append(triangles_.of(others[k].group), sharedTriangles_);
+      if (k < 2 || key(others[k]) != key(others[k - 1]))
+      {
+        shared_[group].push_back({ {}, {}, others[k].slope, others[k].offset });
+      }
+      SharedElements& part = shared_[group].back();
+      part.segments.count += sharedSegments_.size() - before[0];
+      part.triangles.count += sharedTriangles_.size() - before[1];
+    }
+  }
+  const SegmentElement* const* segments = sharedSegments_.data();
+  const TriangleElement* const* triangles = sharedTriangles_.data();
+  for (std::vector<SharedElements>& parts : shared_)
+  {
+    for (SharedElements& part : parts)
+    {
+      part.segments.elements = segments;
+      part.triangles.elements = triangles;
+      segments += part.segments.count;
+      triangles += part.triangles.count;
     }
   }
 }

@@ -68,6 +68,8 @@ private:
   static Members<Element> sortByGroups(
     const std::vector<const Element*>& elements, std::size_t groupCount, const GroupOf& groupOf);
 
+  void findShared();
+
   class Largest;
 
   static Neighbour neighbour(
@@ -76,8 +78,11 @@ private:
   BlendShare share_;
   Members<SegmentElement> segments_;
   Members<TriangleElement> triangles_;
-  std::vector<std::vector<Neighbour>> neighbours_;  // per group
-  std::vector<std::vector<SharedElements>> shared_; // per group: its own, those of the neighbours
+  std::vector<std::vector<Neighbour>> neighbours_; // per group
+  // Per group: its own elements, and those of the neighbours, together where they have the same u.
+  std::vector<std::vector<SharedElements>> shared_;
+  std::vector<const SegmentElement*> sharedSegments_; // of all of them, one after the other
+  std::vector<const TriangleElement*> sharedTriangles_;
 };
 
 } // namespace hybridtree
