@@ -24,7 +24,7 @@ namespace
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kParallelGrain = 1024;
-constexpr std::size_t kMostRoots = 128;
+constexpr std::size_t kMostRoots = 8;
 constexpr std::size_t kUnordered = 16; // points that go down the hierarchy as they come
 
 struct Hit

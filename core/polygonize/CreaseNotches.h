@@ -16,8 +16,8 @@ struct NotchOptions
   double cellSize = 0.0;    ///< of the lattice
   double leastCosine = 1.0; ///< between normals at the corners of a triangle that is not bent
   std::size_t first = 0;    ///< of the triangles that may be replaced
-  /// Per point, or empty: whether what is bent around it is known to be merely curved. Where all
-  /// corners of a bent triangle are calm, no notch is looked for unless one beside it was filled.
+  /// Per triangle, or empty: whether it is known to be merely curved, as far as it is bent. There
+  /// no notch is looked for unless one may be, or was filled, beside it.
   std::vector<bool> calm;
 };
 

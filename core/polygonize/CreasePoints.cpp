@@ -28,14 +28,30 @@ constexpr double kRoundStep = 0.3;
 constexpr std::size_t kBetween = 3; // places on the way
 
 constexpr double kLeastShare = 0.5; // of the angle between the corners' normals that is left there
-constexpr double kEvenBend = 1.05;  // at most between the corners' normals of what is merely curved
-constexpr double kFarthest = 1.2;   // cells, from the middle of the polygon
+// What is merely curved: with normals at the corners no further apart than the first; or than the
+// second, if from one corner inward, across and out to the other one, as the steps have seen it,
+// the normal never turns by more than a share of that at once. An arc of the second is 0.3 cells
+// high.
+constexpr double kEvenBend = 1.05;
+constexpr double kMostBend = 1.5;
+constexpr double kMostTurn = 0.45;
+constexpr double kFarthest = 1.2;    // cells, from the middle of the polygon
 constexpr double kBeyondCell = 0.75; // cells
 constexpr double kOnSurface = 1e-6;  // cells
 constexpr double kWorthIt = 2e-3;    // cells, that the point must be off the polygon's middle
 constexpr double kStraight = 0.1;    // cells, that the surface may be off the lines to the corners
 constexpr double kReach = 0.3;       // cells, in which the surface is looked for
 constexpr double kMargin = 2.0;      // cells around the polygons in which the field is asked
+
+// Of one task.
+constexpr std::size_t kLoopsPerRun = 32;
+constexpr std::int64_t kBricksAlongRun = 4;
+
+/// Of vectors of unit length; not a number where they are none.
+double angleBetween(const Vec3& a, const Vec3& b)
+{
+  return std::acos(std::clamp(a.dot(b), -1.0, 1.0));
+}
 
 /// Search on one polygon.
 struct Search
@@ -46,8 +62,10 @@ struct Search
   Vec3 target = Vec3::Zero(); ///< on an edge, the point next to this is wanted
   Vec3 point = Vec3::Zero();
   TouchingPlanes planes;   ///< one for each corner, from the last step
-  double wideAngle = 0.0;  ///< between the normals at the corners
+  PlanePair widest{};      ///< of the corners
+  double mostTurn = 0.0;   ///< on the way between these two, radians
   bool looksSharp = false; ///< from near, too
+  bool isJudged = false;
   bool alive = true;
 };
 
@@ -86,13 +104,20 @@ public:
     this->checkWays();
     for (const Search& search : searches_)
     {
-      const bool isEven = search.wideAngle <= kEvenBend && !search.looksSharp;
       result_[search.loop].found = search.alive;
-      result_[search.loop].suspected = !search.alive && !isEven;
+      result_[search.loop].suspected = !search.alive && !PointFinder::isEven(search);
     }
   }
 
 private:
+  static bool isEven(const Search& search)
+  {
+    const double angle = search.widest.angle;
+    const bool turnsEvenly =
+      search.isJudged && angle <= kMostBend && search.mostTurn <= kMostTurn * angle;
+    return !search.looksSharp && (angle <= kEvenBend || turnsEvenly);
+  }
+
   /// New planes for all searches, from so far on the way to the corners.
   void ask(double way)
   {
@@ -117,8 +142,15 @@ private:
     {
       for (std::size_t k = 0; search.alive && k < search.planes.size(); ++k, ++next)
       {
-        search.planes[k] =
+        const TouchingPlane plane =
           TouchingPlane::of(points.points()[next], values[next], gradients.points()[next]);
+        if (way < 1.0 && !search.isJudged &&
+          (k == search.widest.first || k == search.widest.second))
+        {
+          search.mostTurn =
+            std::max(search.mostTurn, angleBetween(search.planes[k].normal, plane.normal));
+        }
+        search.planes[k] = plane;
       }
     }
   }
@@ -177,7 +209,7 @@ private:
   {
     if (step == 0)
     {
-      search.wideAngle = widestAngle(search.planes);
+      search.widest = widestPair(search.planes);
       this->keepNormals(search);
     }
     for (const TouchingPlane& plane : search.planes)
@@ -189,8 +221,12 @@ private:
     }
     if (step == kJudging)
     {
+      search.isJudged = true;
+      search.mostTurn = std::max(search.mostTurn,
+        angleBetween(
+          search.planes[search.widest.first].normal, search.planes[search.widest.second].normal));
       search.looksSharp =
-        widestAngle(search.planes) >= std::max(leastAngle_, kLeastShare * search.wideAngle);
+        widestAngle(search.planes) >= std::max(leastAngle_, kLeastShare * search.widest.angle);
       if (!search.looksSharp)
       {
         return false;
@@ -266,20 +302,41 @@ private:
   std::vector<Search> searches_;
 };
 
-/// Loops before this, from the last one on, lie in one brick.
-std::vector<std::size_t> endsOfBricks(const std::vector<CreaseLoop>& loops)
+/// Loops before this, from the last one on, lie together: whole bricks that follow one another, as
+/// long as they are few loops and not far apart, so that the field can be narrowed.
+std::vector<std::size_t> endsOfRuns(const std::vector<CreaseLoop>& loops)
 {
   const auto brickOf = [](const CreaseLoop& loop) {
     return Index3{ loop.cell[0] >> 3, loop.cell[1] >> 3, loop.cell[2] >> 3 };
   };
   std::vector<std::size_t> ends;
-  for (std::size_t k = 1; k <= loops.size(); ++k)
+  std::size_t begin = 0;
+  Index3 low{}, high{};
+  for (std::size_t k = 0; k < loops.size(); ++k)
   {
-    if (k == loops.size() || brickOf(loops[k]) != brickOf(loops[k - 1]))
+    const Index3 brick = brickOf(loops[k]);
+    bool joins = k > 0 && (k - begin < kLoopsPerRun || brick == brickOf(loops[k - 1]));
+    for (int axis = 0; axis < 3 && joins; ++axis)
     {
-      ends.push_back(k);
+      joins =
+        std::max(high[axis], brick[axis]) - std::min(low[axis], brick[axis]) < kBricksAlongRun;
+    }
+    if (!joins)
+    {
+      if (k > 0)
+      {
+        ends.push_back(k);
+      }
+      begin = k;
+      low = high = brick;
+    }
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      low[axis] = std::min(low[axis], brick[axis]);
+      high[axis] = std::max(high[axis], brick[axis]);
     }
   }
+  ends.push_back(loops.size());
   return ends;
 }
 
@@ -302,7 +359,11 @@ std::vector<CreasePoint> findCreasePoints(const FieldSource& field, const Lattic
   const Progress& progress)
 {
   std::vector<CreasePoint> points(loops.size());
-  const std::vector<std::size_t> ends = endsOfBricks(loops);
+  if (loops.empty())
+  {
+    return points;
+  }
+  const std::vector<std::size_t> ends = endsOfRuns(loops);
   parallelFor(ends.size(), 1,
     [&](std::size_t from, std::size_t to)
     {

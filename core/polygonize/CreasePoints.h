@@ -16,8 +16,8 @@ struct CreasePoint
 {
   bool found = false;
   /// Not found, and it was no even curve either: from near it looked like a crease up to the end,
-  /// or its corners face so differently that the lattice cannot have followed the surface between
-  /// them.
+  /// or its corners face so differently, without the field's normal turning by and by from one to
+  /// the other, that the lattice cannot have followed the surface between them.
   bool suspected = false;
   Vec3 point = Vec3::Zero();
   /// In the middle of those of the faces that meet there, unit length.

@@ -40,7 +40,7 @@ constexpr double kReach = 0.3;       // in which the surface is looked for near 
 constexpr double kRise = 2.0;        // and over a site without one
 constexpr double kLeastHeight = 0.1; // of the triangles around the point
 constexpr double kMargin = 4.0;
-constexpr double kGroup = 8.0; // side of the cubes whose sites are looked at together
+constexpr double kGroup = 32.0; // side of the cubes whose sites are looked at together
 
 /// The sites of one task, which lie together.
 class NotchFinder

@@ -32,7 +32,8 @@ NotchSearch::NotchSearch(const FieldSource& field, const NotchOptions& options,
 {
   for (std::size_t t = options.first; t < mesh.triangles.size(); ++t)
   {
-    if (this->isBent(mesh.triangles[t]) && !this->isCalm(mesh.triangles[t]))
+    const bool calm = !options.calm.empty() && options.calm[t];
+    if (!calm && this->isBent(mesh.triangles[t]))
     {
       hasHotPoints_ = true;
       this->heat(mesh.triangles[t]);
@@ -46,12 +47,6 @@ bool NotchSearch::isBent(const Triangle& c) const
   const Vec3& b = mesh_.normals[c[1]];
   const Vec3& d = mesh_.normals[c[2]];
   return std::min({ a.dot(b), b.dot(d), d.dot(a) }) < options_.leastCosine;
-}
-
-bool NotchSearch::isCalm(const Triangle& c) const
-{
-  return std::all_of(c.begin(), c.end(),
-    [&](Index v) { return std::size_t(v) < options_.calm.size() && options_.calm[v]; });
 }
 
 void NotchSearch::heat(const Triangle& corners)

@@ -62,7 +62,6 @@ public:
 
 private:
   bool isBent(const Triangle& corners) const;
-  bool isCalm(const Triangle& corners) const;
   void heat(const Triangle& corners);
   const TriangleSide* findChangeableTwin(const TriangleSide& side) const;
   void findTriangles(const std::vector<bool>& removed);

@@ -87,26 +87,27 @@ public:
       [](const CreasePoint& point) { return point.found || point.suspected; });
   }
 
-  /// Points of the mesh whose polygons are all merely curved, as far as they are bent.
-  std::vector<bool> calmPoints() const
+  /// Triangles of the mesh as it is now, of polygons that are bent but merely curved.
+  std::vector<bool> calmTriangles() const
   {
-    std::vector<bool> calm(mesh_.points.size(), false);
-    for (const bool odd : { false, true })
+    std::vector<bool> calm(mesh_.triangles.size(), false);
+    std::size_t gone = 0; // before the polygon at hand
+    for (std::size_t loop = 0; loop < loops_.size(); ++loop)
     {
-      for (std::size_t loop = 0; loop < loops_.size(); ++loop)
+      const auto first = static_cast<std::ptrdiff_t>(loops_[loop].firstTriangle - gone);
+      if (points_[loop].found)
       {
-        for (std::size_t k = 0; this->isOdd(loop) == odd && k < loops_[loop].corners.size(); ++k)
-        {
-          calm[loops_[loop].corners[k]] = !odd;
-        }
+        gone += loops_[loop].triangleCount;
+      }
+      else if (!points_[loop].suspected)
+      {
+        std::fill_n(calm.begin() + first, loops_[loop].triangleCount, true);
       }
     }
     return calm;
   }
 
 private:
-  bool isOdd(std::size_t loop) const { return points_[loop].found || points_[loop].suspected; }
-
   std::int32_t apexOf(std::size_t loop) const
   {
     return static_cast<std::int32_t>(firstPoint_ + loop);
@@ -407,8 +408,9 @@ std::size_t sharpenCreases(const FieldSource& field, const Lattice& lattice, std
   // all the rest.
   return sharpener.isCalm() ? points
                             : points +
-      mendNotches(field, { lattice.cellSize, std::cos(kLeastAngle), first, sharpener.calmPoints() },
-        mesh, progress);
+      mendNotches(field,
+        { lattice.cellSize, std::cos(kLeastAngle), first, sharpener.calmTriangles() }, mesh,
+        progress);
 }
 
 } // namespace hybridtree

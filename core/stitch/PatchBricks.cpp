@@ -12,7 +12,8 @@ namespace hybridtree
 namespace
 {
 
-constexpr std::size_t kBricksPerTask = 1;
+constexpr std::size_t kPointsPerRun = 1000;
+constexpr std::int64_t kBricksAlongRun = 4;
 constexpr int kHalo = kBrickSide + 2;
 
 /// Marks of the cells of a brick and of those one cell around it: bit x + 1 of row (y + 1, z + 1).
@@ -45,6 +46,13 @@ Halo gather(const PatchBrick& brick, const std::vector<PatchBrick>& bricks)
   return halo;
 }
 
+/// Of its lattice points, or beyond it.
+Index3 firstPoint(const PatchBrick& brick, std::int64_t beyond)
+{
+  return { kBrickSide * brick.index[0] + beyond, kBrickSide * brick.index[1] + beyond,
+    kBrickSide * brick.index[2] + beyond };
+}
+
 } // namespace
 
 std::int32_t PatchBrick::vertexOn(unsigned axis, int x, int y, int z) const
@@ -71,14 +79,18 @@ PatchBricks::PatchBricks(
   const FieldSource& field, const CellSet& cells, const Lattice& lattice, const Progress& progress)
 {
   this->addBricks(cells);
-  parallelFor(bricks_.size(), kBricksPerTask,
+  for (PatchBrick& brick : bricks_)
+  {
+    this->findBits(brick);
+  }
+  this->findRuns();
+  parallelFor(runs_.size(), 1,
     [&](std::size_t begin, std::size_t end)
     {
       progress.check();
       for (std::size_t k = begin; k < end; ++k)
       {
-        this->findBits(bricks_[k]);
-        this->sample(bricks_[k], field, lattice);
+        this->sample(runs_[k], field, lattice);
       }
     });
 }
@@ -146,27 +158,70 @@ void PatchBricks::findBits(PatchBrick& brick) const
   }
 }
 
-void PatchBricks::sample(PatchBrick& brick, const FieldSource& field, const Lattice& lattice) const
+/// Up to some number of points and a few bricks wide, so that the field can still be narrowed.
+void PatchBricks::findRuns()
 {
-  std::vector<int> chosen;
-  for (int n = 0; n < kBrickPoints; ++n)
+  std::size_t points = 0;
+  Index3 low{}, high{};
+  for (std::size_t k = 0; k < bricks_.size(); ++k)
   {
-    if ((brick.points[n / 64] >> (n % 64) & 1u) != 0)
+    const PatchBrick& brick = bricks_[k];
+    std::size_t own = 0;
+    for (const std::uint64_t word : brick.points)
     {
-      chosen.push_back(n);
+      own += bitCount(word);
+    }
+    bool joins = k > 0 && points + own <= kPointsPerRun;
+    for (int axis = 0; axis < 3 && joins; ++axis)
+    {
+      joins = std::max(high[axis], brick.index[axis]) - std::min(low[axis], brick.index[axis]) <
+        kBricksAlongRun;
+    }
+    if (!joins)
+    {
+      runs_.push_back({ k, k });
+      points = 0;
+      low = high = brick.index;
+    }
+    points += own;
+    runs_.back().end = k + 1;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      low[axis] = std::min(low[axis], brick.index[axis]);
+      high[axis] = std::max(high[axis], brick.index[axis]);
     }
   }
-  if (chosen.empty())
+}
+
+void PatchBricks::sample(const Run& run, const FieldSource& field, const Lattice& lattice)
+{
+  struct Chosen
   {
-    return;
+    PatchBrick* brick;
+    int point;
+  };
+  std::vector<Chosen> chosen;
+  Box3 box;
+  for (std::size_t k = run.begin; k < run.end; ++k)
+  {
+    PatchBrick& brick = bricks_[k];
+    const std::size_t before = chosen.size();
+    for (int z = 0; z < kBrickSide; ++z)
+    {
+      for (std::uint64_t word = brick.points[z]; word != 0; word &= word - 1)
+      {
+        chosen.push_back({ &brick, kBrickSide * kBrickSide * z + PatchBrick::lowestBit(word) });
+      }
+    }
+    if (chosen.size() > before)
+    {
+      brick.values.assign(kBrickPoints, static_cast<float>(-kThreshold));
+      box.extend(lattice.point(firstPoint(brick, 0)));
+      box.extend(lattice.point(firstPoint(brick, kBrickSide)));
+    }
   }
-  const Index3 first{ kBrickSide * brick.index[0], kBrickSide * brick.index[1],
-    kBrickSide * brick.index[2] };
-  const Box3 box(lattice.point(first),
-    lattice.point({ first[0] + kBrickSide, first[1] + kBrickSide, first[2] + kBrickSide }));
-  brick.source = field.restrictedTo(box);
-  brick.values.assign(kBrickPoints, static_cast<float>(-kThreshold));
-  if (!brick.source)
+  const FieldSourcePtr source = chosen.empty() ? nullptr : field.restrictedTo(box);
+  if (!source)
   {
     return;
   }
@@ -174,18 +229,21 @@ void PatchBricks::sample(PatchBrick& brick, const FieldSource& field, const Latt
   ScratchArray values(chosen.size());
   for (std::size_t k = 0; k < chosen.size(); ++k)
   {
-    const int n = chosen[k];
-    points.batch().set(k,
-      lattice.point({ first[0] + n % kBrickSide, first[1] + n / kBrickSide % kBrickSide,
-        first[2] + n / (kBrickSide * kBrickSide) }));
+    const int n = chosen[k].point;
+    Index3 at = firstPoint(*chosen[k].brick, 0);
+    at[0] += n % kBrickSide;
+    at[1] += n / kBrickSide % kBrickSide;
+    at[2] += n / (kBrickSide * kBrickSide);
+    points.batch().set(k, lattice.point(at));
   }
-  brick.source->field(points.points(), values.data());
+  source->field(points.points(), values.data());
   for (std::size_t k = 0; k < chosen.size(); ++k)
   {
     const double value = values[k] - kThreshold;
-    const int n = chosen[k];
-    brick.values[n] = static_cast<float>(value);
-    brick.inside[n / 64] |= std::uint64_t(hybridtree::isInside(value)) << (n % 64);
+    const auto [brick, n] = chosen[k];
+    brick->source = source;
+    brick->values[n] = static_cast<float>(value);
+    brick->inside[n / 64] |= std::uint64_t(hybridtree::isInside(value)) << (n % 64);
   }
 }
 

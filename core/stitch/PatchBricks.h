@@ -25,7 +25,7 @@ struct PatchBrick
   std::array<std::int32_t, 27>
     near{};                  ///< number of the brick at offset (n % 3, n / 3 % 3, n / 9) - 1
   std::vector<float> values; ///< f - T at the points, where it was sampled
-  FieldSourcePtr source;     ///< valid in the closed box of the brick's cells
+  FieldSourcePtr source;     ///< of its run: valid in the closed box of the brick's cells
   std::array<std::array<std::uint16_t, kBrickSide>, 3> rank{};
   std::int32_t firstVertex = 0;
   std::int32_t vertexCount = 0;
@@ -70,12 +70,21 @@ struct PatchBrick
 class PatchBricks
 {
 public:
-  /// Samples the field, brick by brick in parallel. field must live as long as this.
+  /// Samples the field, run by run in parallel. field must live as long as this.
   PatchBricks(const FieldSource& field, const CellSet& cells, const Lattice& lattice,
     const Progress& progress);
 
   std::vector<PatchBrick>& all() { return bricks_; }
   const std::vector<PatchBrick>& all() const { return bricks_; }
+
+  /// Bricks [begin, end) that follow one another and lie together. They share their source, and are
+  /// asked for at once: bricks at the border of the marks have a few points each.
+  struct Run
+  {
+    std::size_t begin = 0;
+    std::size_t end = 0;
+  };
+  const std::vector<Run>& runs() const { return runs_; }
 
   /// A lattice point or cell, by its brick and its place in it. brick is null where there is none.
   struct Place
@@ -97,9 +106,11 @@ public:
 private:
   void addBricks(const CellSet& cells);
   void findBits(PatchBrick& brick) const;
-  void sample(PatchBrick& brick, const FieldSource& field, const Lattice& lattice) const;
+  void findRuns();
+  void sample(const Run& run, const FieldSource& field, const Lattice& lattice);
 
   std::vector<PatchBrick> bricks_;
+  std::vector<Run> runs_;
   std::unordered_map<Index3, std::int32_t, Index3Hash> index_;
 };
 

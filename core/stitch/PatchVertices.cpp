@@ -79,42 +79,60 @@ private:
 
   void makeVertices()
   {
-    overruled_.resize(bricks_.all().size());
-    this->forEachBrick(
-      [&](PatchBrick& brick, std::size_t number)
+    overruled_.resize(bricks_.runs().size());
+    parallelFor(overruled_.size(), 1,
+      [&](std::size_t begin, std::size_t end)
       {
-        if (brick.vertexCount == 0)
+        progress_.check();
+        for (std::size_t k = begin; k < end; ++k)
         {
-          return;
+          this->makeVertices(bricks_.runs()[k], overruled_[k]);
         }
-        std::vector<CrossedEdge> edges;
-        edges.reserve(static_cast<std::size_t>(brick.vertexCount));
-        for (unsigned axis = 0; axis < 3; ++axis)
-        {
-          for (int z = 0; z < kBrickSide; ++z)
-          {
-            for (std::uint64_t word = brick.crossed[axis][z]; word != 0; word &= word - 1)
-            {
-              const int n = PatchBrick::lowestBit(word);
-              edges.push_back(this->edgeAt(brick, axis, n % kBrickSide, n / kBrickSide, z));
-            }
-          }
-        }
-        const std::int32_t first = brick.firstVertex - first_;
-        for (std::size_t k = 0; k < edges.size(); ++k)
-        {
-          if (PatchVertexMaker::isOverruled(edges[k]))
-          {
-            overruled_[number].push_back(brick.firstVertex + static_cast<std::int32_t>(k));
-          }
-        }
-        if (!brick.source)
-        {
-          this->placeWithoutField(edges, first);
-          return;
-        }
-        findSurface(*brick.source, lattice_, edges, &patch_.points[first], &patch_.normals[first]);
       });
+  }
+
+  /// Their vertices follow one another.
+  void makeVertices(const PatchBricks::Run& run, std::vector<std::int32_t>& overruled)
+  {
+    std::vector<CrossedEdge> edges;
+    const std::int32_t firstVertex = bricks_.all()[run.begin].firstVertex;
+    FieldSourcePtr source;
+    for (std::size_t k = run.begin; k < run.end; ++k)
+    {
+      source = source ? source : bricks_.all()[k].source;
+      this->addEdges(bricks_.all()[k], edges);
+    }
+    for (std::size_t k = 0; k < edges.size(); ++k)
+    {
+      if (PatchVertexMaker::isOverruled(edges[k]))
+      {
+        overruled.push_back(firstVertex + static_cast<std::int32_t>(k));
+      }
+    }
+    const std::int32_t first = firstVertex - first_;
+    if (!source)
+    {
+      this->placeWithoutField(edges, first);
+    }
+    else if (!edges.empty())
+    {
+      findSurface(*source, lattice_, edges, &patch_.points[first], &patch_.normals[first]);
+    }
+  }
+
+  void addEdges(const PatchBrick& brick, std::vector<CrossedEdge>& edges)
+  {
+    for (unsigned axis = 0; axis < 3; ++axis)
+    {
+      for (int z = 0; z < kBrickSide; ++z)
+      {
+        for (std::uint64_t word = brick.crossed[axis][z]; word != 0; word &= word - 1)
+        {
+          const int n = PatchBrick::lowestBit(word);
+          edges.push_back(this->edgeAt(brick, axis, n % kBrickSide, n / kBrickSide, z));
+        }
+      }
+    }
   }
 
   void collectUnsettled()
@@ -170,7 +188,7 @@ private:
   const std::int32_t first_;
   Patch& patch_;
   const Progress& progress_;
-  std::vector<std::vector<std::int32_t>> overruled_; ///< per brick: vertices off the surface
+  std::vector<std::vector<std::int32_t>> overruled_; ///< per run: vertices off the surface
 };
 
 } // namespace
