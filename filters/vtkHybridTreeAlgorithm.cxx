@@ -13,6 +13,7 @@
 #include "vtkHybridTreeFormulation.h"
 #include "vtkHybridTreeLeaves.h"
 #include "vtkHybridTreeOperand.h"
+#include "vtkHybridTreeProcesses.h"
 #include "vtkHybridTreeProgress.h"
 #include "vtkInformation.h"
 #include "vtkInformationIntegerKey.h"
@@ -151,27 +152,15 @@ int vtkHybridTreeAlgorithm::RequestData(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   ++this->NumberOfExecutions;
-  try
+  this->CollectInputs(inputs);
+  const int done = hybridtree::runOnAll(
+    this, [&] { this->Run(outputs); }, [&] { Clear(outputs); });
+  this->ForgetInputs();
+  if (!done)
   {
-    this->CollectInputs(inputs);
-    this->Run(outputs);
-    this->ForgetInputs();
-    return 1;
-  }
-  catch (const hybridtree::Cancelled&) // the user's wish, not an error
-  {
-    this->ForgetInputs();
-    Clear(outputs);
-    return 1;
-  }
-  catch (const std::exception& error)
-  {
-    this->ForgetInputs();
     this->Internals->Node = nullptr;
-    Clear(outputs);
-    vtkErrorMacro(<< error.what());
-    return 0;
   }
+  return done;
 }
 
 //------------------------------------------------------------------------------
@@ -263,8 +252,9 @@ std::vector<vtkHybridTreeAlgorithm::NodePtr> vtkHybridTreeAlgorithm::ReadPort(
     }
     catch (const hybridtree::Error& error)
     {
+      const std::string which = connections.size() > 1 ? " " + std::to_string(k + 1) : "";
       throw hybridtree::InvalidGeometry(
-        "Input " + std::to_string(k) + " of port " + std::to_string(port) + ": " + error.what());
+        this->InputName(static_cast<int>(port)) + which + ": " + error.what());
     }
     const std::vector<NodePtr>& shapes = connections[k].nodes();
     takesMany ? void(nodes.insert(nodes.end(), shapes.begin(), shapes.end()))
@@ -320,6 +310,12 @@ void vtkHybridTreeAlgorithm::WriteOutput(
   hybridtree::putArrays(arrays, leaves, output->GetFieldData());
   vtkHybridTreeArray::PutTree(state.Node, output);
   reuseArrays(state.FieldArrays, output->GetFieldData());
+}
+
+//------------------------------------------------------------------------------
+const char* vtkHybridTreeAlgorithm::InputName(int)
+{
+  return "Input";
 }
 
 //------------------------------------------------------------------------------

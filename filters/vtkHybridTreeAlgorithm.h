@@ -117,6 +117,11 @@ protected:
   virtual NodePtr MakeNode(const Operands& operands) = 0;
 
   /**
+   * What an input port is called in messages: the name that ParaView's users know it by.
+   */
+  virtual const char* InputName(int port);
+
+  /**
    * False for an input port that takes data which are no node, such as curves. Operands have none
    * of its connections; ReadOtherInputs() reads them.
    */

@@ -7,17 +7,13 @@
 #include "vtkCompositeDataSet.h"
 #include "vtkDataObjectTree.h"
 #include "vtkDataObjectTreeIterator.h"
-#include "vtkFieldData.h"
-#include "vtkHybridTreeConvert.h"
 #include "vtkHybridTreeLeaves.h"
+#include "vtkHybridTreeProcesses.h"
 #include "vtkInformation.h"
 #include "vtkInformationStringKey.h"
 #include "vtkMultiPieceDataSet.h"
-#include "vtkMultiProcessController.h"
 #include "vtkNew.h"
 #include "vtkPartitionedDataSet.h"
-#include "vtkPointSet.h"
-#include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkUnstructuredGrid.h"
 
@@ -100,90 +96,6 @@ void collect(vtkDataObject* data, const std::string& name, std::vector<Block>& b
   }
 }
 
-// ---------------------------------------------------------------------------- several processes
-
-bool carriesTree(vtkDataSet* data)
-{
-  auto* mesh = vtkPolyData::SafeDownCast(data);
-  return mesh && carriedTree(mesh).belongs;
-}
-
-/// Tells, as far as is needed here, whether two processes hold the same.
-vtkTypeUInt64 signatureOf(vtkDataSet* data)
-{
-  if (auto* mesh = vtkPolyData::SafeDownCast(data))
-  {
-    return fingerprint(mesh);
-  }
-  vtkNew<vtkPolyData> stand;
-  if (auto* set = vtkPointSet::SafeDownCast(data))
-  {
-    stand->SetPoints(set->GetPoints());
-  }
-  else if (data)
-  {
-    double bounds[6];
-    data->GetBounds(bounds);
-    vtkNew<vtkPoints> corners;
-    corners->InsertNextPoint(bounds[0], bounds[2], bounds[4]);
-    corners->InsertNextPoint(bounds[1], bounds[3], bounds[5]);
-    corners->InsertNextPoint(static_cast<double>(data->GetNumberOfPoints()), 0.0, 0.0);
-    stand->SetPoints(corners);
-  }
-  return fingerprint(stand);
-}
-
-template <class Value>
-std::vector<Value> fromAll(vtkMultiProcessController* controller, Value mine)
-{
-  std::vector<Value> all(static_cast<std::size_t>(controller->GetNumberOfProcesses()));
-  controller->AllGather(&mine, all.data(), 1);
-  return all;
-}
-
-template <class Value>
-bool sameForAll(vtkMultiProcessController* controller, Value mine)
-{
-  const std::vector<Value> all = fromAll(controller, mine);
-  return std::all_of(all.begin(), all.end(), [&](Value other) { return other == all.front(); });
-}
-
-void joinProcesses(vtkMultiProcessController* controller, Block& block)
-{
-  const bool carried = carriesTree(block.data);
-  const vtkTypeUInt64 mine = carried ? 0 : signatureOf(block.data);
-  if (sameForAll(controller, static_cast<unsigned long long>(mine)))
-  {
-    return;
-  }
-  vtkNew<vtkPolyData> nothing;
-  vtkSmartPointer<vtkDataSet> part = nothing.Get();
-  if (block.data)
-  {
-    part = vtk::TakeSmartPointer(block.data->NewInstance());
-    part->ShallowCopy(block.data);
-    part->GetFieldData()->Initialize();
-  }
-  std::vector<vtkSmartPointer<vtkDataObject>> received;
-  controller->AllGather(part.Get(), received);
-  std::vector<Block> parts;
-  for (const auto& one : received)
-  {
-    parts.push_back({ block.name, vtkDataSet::SafeDownCast(one) });
-  }
-  block.data = joined(parts);
-}
-
-void joinProcesses(vtkMultiProcessController* controller, std::vector<Block>& blocks)
-{
-  const std::vector<int> counts = fromAll(controller, static_cast<int>(blocks.size()));
-  blocks.resize(static_cast<std::size_t>(*std::max_element(counts.begin(), counts.end())));
-  for (Block& block : blocks)
-  {
-    joinProcesses(controller, block);
-  }
-}
-
 bool isEmpty(const Block& block)
 {
   return !block.data || block.data->GetNumberOfPoints() == 0;
@@ -198,11 +110,7 @@ std::vector<Block> blocksOf(vtkDataObject* input)
   {
     collect(input, "", blocks);
   }
-  auto* controller = vtkMultiProcessController::GetGlobalController();
-  if (controller && controller->GetNumberOfProcesses() > 1)
-  {
-    joinProcesses(controller, blocks);
-  }
+  joinProcesses(blocks);
   const bool single = blocks.size() == 1 && blocks.front().name.empty();
   if (!single) // an empty data set is its reader's to complain of; so is a tree without a mesh
   {

@@ -39,6 +39,12 @@ vtkHybridTreeBoolean::NodePtr vtkHybridTreeBoolean::MakeNode(const Operands& ope
 }
 
 //------------------------------------------------------------------------------
+const char* vtkHybridTreeBoolean::InputName(int port)
+{
+  return port == 0 ? "A" : "B";
+}
+
+//------------------------------------------------------------------------------
 int vtkHybridTreeBoolean::FillInputPortInformation(int port, vtkInformation* info)
 {
   if (port == 1)

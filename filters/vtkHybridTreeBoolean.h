@@ -75,6 +75,7 @@ protected:
 
 #ifndef __VTK_WRAP__
   NodePtr MakeNode(const Operands& operands) override;
+  const char* InputName(int port) override;
   void FillOtherOutputs(vtkInformationVector* outputs) override;
 #endif
 

@@ -280,6 +280,11 @@ void requirePolygons(vtkPolyData* input)
   {
     throw InvalidGeometry("The input is empty: it has no points. Check the filter it comes from.");
   }
+  if (input->GetNumberOfLines() > 0)
+  {
+    throw InvalidGeometry("The input has " + std::to_string(input->GetNumberOfLines()) +
+      " lines and no polygons. Apply HybridTree Curve Skeletons to it first.");
+  }
   throw InvalidGeometry("The input is a point set: it has " +
     std::to_string(input->GetNumberOfPoints()) +
     " points and no polygons. Apply HybridTree Surface Reconstruction to it first.");

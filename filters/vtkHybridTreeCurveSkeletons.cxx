@@ -16,6 +16,7 @@
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -26,6 +27,21 @@ namespace
 
 using hybridtree::SplineCurve;
 using hybridtree::SplineKind;
+
+constexpr double kAutomaticRadius = 0.03; // in longest sides of the bounds
+
+double longestSide(const std::vector<SplineCurve>& curves)
+{
+  hybridtree::Box3 bounds;
+  for (const SplineCurve& curve : curves)
+  {
+    for (const hybridtree::Vec3& point : curve.points)
+    {
+      bounds.extend(point);
+    }
+  }
+  return bounds.isEmpty() ? 0.0 : bounds.sizes().maxCoeff();
+}
 
 /// Reads the cells of one polydata as curves.
 class CurveReader
@@ -128,8 +144,8 @@ private:
 vtkHybridTreeCurveSkeletons::vtkHybridTreeCurveSkeletons()
 {
   this->SetNumberOfInputPorts(1);
-  this->SurfaceRadius = 0.1;
-  this->InfluenceRadius = 0.2;
+  this->SurfaceRadius = 0.0;
+  this->InfluenceRadius = 0.0;
 }
 
 vtkHybridTreeCurveSkeletons::~vtkHybridTreeCurveSkeletons() = default;
@@ -173,8 +189,29 @@ vtkHybridTreeCurveSkeletons::NodePtr vtkHybridTreeCurveSkeletons::MakeNode(const
   }
   const auto kind = this->As == SPLINE ? SplineKind::CatmullRom : SplineKind::Polyline;
   const CurveReader reader(this->Input, this->RadiusArray, kind);
+  const std::vector<SplineCurve> curves = reader.Read();
   return hybridtree::makeCurveTree(
-    reader.Read(), { this->GetPotential(), this->Blend == ACROSS_ALL, this->LevelOfDetail });
+    curves, { this->FittedPotential(curves), this->Blend == ACROSS_ALL, this->LevelOfDetail });
+}
+
+//------------------------------------------------------------------------------
+hybridtree::Potential vtkHybridTreeCurveSkeletons::FittedPotential(
+  const std::vector<SplineCurve>& curves) const
+{
+  double surface = this->SurfaceRadius;
+  if (surface == 0.0)
+  {
+    surface = kAutomaticRadius * longestSide(curves);
+    if (!(surface > 0.0) && !this->UsesMaximumField())
+    {
+      throw hybridtree::InvalidParameter("SurfaceRadius", 0.0,
+        "greater than 0 for an input of a single point, which has no size of its own");
+    }
+    surface =
+      this->InfluenceRadius > 0.0 ? std::min(surface, 0.5 * this->InfluenceRadius) : surface;
+  }
+  return this->GetPotential(
+    surface, this->InfluenceRadius == 0.0 ? 2.0 * surface : this->InfluenceRadius);
 }
 
 //------------------------------------------------------------------------------

@@ -7,6 +7,9 @@
  * or a spline through its points; one whose last point is its first is closed. Hundreds of
  * primitives are one node. Polygons of the input do not count.
  *
+ * Where SurfaceRadius is 0 (default) it is 3 % of the longest side of the curves' bounds, at most
+ * half of InfluenceRadius; where InfluenceRadius is 0 (default) it is twice the surface radius.
+ *
  * RadiusArray, a point array of one component, gives the surface its radius along the curves; the
  * other field parameters are then scaled from curve to curve by its largest radius.
  */
@@ -18,8 +21,14 @@
 #include "vtkHybridTreeFieldAlgorithm.h"
 
 #include <string> // for RadiusArray
+#include <vector> // for curves
 
 class vtkPolyData;
+
+namespace hybridtree
+{
+struct SplineCurve;
+}
 
 class HYBRIDTREEFILTERS_EXPORT vtkHybridTreeCurveSkeletons : public vtkHybridTreeFieldAlgorithm
 {
@@ -85,6 +94,7 @@ protected:
   std::shared_ptr<const hybridtree::Skeleton> MakeSkeleton() override;
   bool TakesNodes(int port) override;
   bool ReadOtherInputs() override;
+  hybridtree::Potential FittedPotential(const std::vector<hybridtree::SplineCurve>& curves) const;
 #endif
 
   int FillInputPortInformation(int port, vtkInformation* info) override;

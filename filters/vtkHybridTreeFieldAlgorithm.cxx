@@ -12,10 +12,16 @@ vtkHybridTreeFieldAlgorithm::~vtkHybridTreeFieldAlgorithm() = default;
 
 hybridtree::Potential vtkHybridTreeFieldAlgorithm::GetPotential() const
 {
+  return this->GetPotential(this->SurfaceRadius, this->InfluenceRadius);
+}
+
+hybridtree::Potential vtkHybridTreeFieldAlgorithm::GetPotential(
+  double surfaceRadius, double influenceRadius) const
+{
   return this->UsesMaximumField()
-    ? hybridtree::Potential(this->GetSignedMaximum(), this->InfluenceRadius, this->Exponent)
+    ? hybridtree::Potential(this->GetSignedMaximum(), influenceRadius, this->Exponent)
     : hybridtree::Potential::bySurfaceRadius(
-        this->SurfaceRadius, this->InfluenceRadius, this->Exponent, this->Negative);
+        surfaceRadius, influenceRadius, this->Exponent, this->Negative);
 }
 
 vtkHybridTreeFieldAlgorithm::NodePtr vtkHybridTreeFieldAlgorithm::MakeNode(const Operands&)

@@ -53,6 +53,11 @@ protected:
    */
   hybridtree::Potential GetPotential() const;
 
+  /**
+   * The same with other radii, world units.
+   */
+  hybridtree::Potential GetPotential(double surfaceRadius, double influenceRadius) const;
+
   NodePtr MakeNode(const Operands& operands) override;
 
   /**

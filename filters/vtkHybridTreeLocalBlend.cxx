@@ -30,6 +30,12 @@ vtkHybridTreeLocalBlend::NodePtr vtkHybridTreeLocalBlend::MakeNode(const Operand
 }
 
 //------------------------------------------------------------------------------
+const char* vtkHybridTreeLocalBlend::InputName(int port)
+{
+  return port == 0 ? "A" : port == 1 ? "B" : "Region";
+}
+
+//------------------------------------------------------------------------------
 int vtkHybridTreeLocalBlend::FillInputPortInformation(int port, vtkInformation* info)
 {
   if (port == 2)

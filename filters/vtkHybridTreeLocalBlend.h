@@ -26,6 +26,7 @@ protected:
 
 #ifndef __VTK_WRAP__
   NodePtr MakeNode(const Operands& operands) override;
+  const char* InputName(int port) override;
 #endif
 
   int FillInputPortInformation(int port, vtkInformation* info) override;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkHybridTreeProbe.h"
 
+#include "core/base/Error.h"
 #include "core/base/Parallel.h"
 #include "core/base/Scratch.h"
 #include "core/nodes/Node.h"
@@ -10,6 +11,7 @@
 #include "vtkHybridTreeAlgorithm.h"
 #include "vtkHybridTreeFormulation.h"
 #include "vtkHybridTreeOperand.h"
+#include "vtkHybridTreeProcesses.h"
 #include "vtkHybridTreeProgress.h"
 #include "vtkInformation.h"
 #include "vtkInformationIntegerKey.h"
@@ -193,11 +195,18 @@ int vtkHybridTreeProbe::RequestData(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   vtkDataSet* output = vtkDataSet::GetData(outputs);
-  try
+  const auto blocks = hybridtree::blocksOf(vtkDataObject::GetData(inputs[0]));
+  const auto probe = [&]
   {
     std::vector<std::string> warnings;
-    const auto blocks = hybridtree::blocksOf(vtkDataObject::GetData(inputs[0]));
-    this->Internals->Tree.read(blocks, warnings);
+    try
+    {
+      this->Internals->Tree.read(blocks, warnings);
+    }
+    catch (const hybridtree::Error& error)
+    {
+      throw hybridtree::InvalidGeometry(std::string("Tree: ") + error.what());
+    }
     for (const std::string& warning : warnings)
     {
       vtkWarningMacro(<< warning);
@@ -205,19 +214,8 @@ int vtkHybridTreeProbe::RequestData(
     output->ShallowCopy(vtkDataSet::GetData(inputs[1]));
     const hybridtree::FilterProgress progress(this);
     Prober(*this->Internals->Tree.node(), output).run(progress);
-    return 1;
-  }
-  catch (const hybridtree::Cancelled&) // the user's wish, not an error
-  {
-    output->Initialize();
-    return 1;
-  }
-  catch (const std::exception& error)
-  {
-    output->Initialize();
-    vtkErrorMacro(<< error.what());
-    return 0;
-  }
+  };
+  return hybridtree::runOnAll(this, probe, [&] { output->Initialize(); });
 }
 
 //------------------------------------------------------------------------------

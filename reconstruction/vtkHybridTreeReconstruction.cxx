@@ -16,6 +16,7 @@
 #include "vtkDoubleArray.h"
 #include "vtkHybridTreeArray.h"
 #include "vtkHybridTreeBlocks.h"
+#include "vtkHybridTreeProcesses.h"
 #include "vtkIdTypeArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -206,32 +207,21 @@ int vtkHybridTreeReconstruction::RequestData(
   vtkInformation* info = outputs->GetInformationObject(0);
   vtkPolyData* output = vtkPolyData::GetData(info);
   const auto blocks = hybridtree::blocksOf(vtkDataObject::GetData(inputs[0]));
-  if (info->Get(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER()) > 0)
+  const auto work = [&]
   {
-    output->Initialize();
-    return 1;
-  }
-  try
-  {
+    if (info->Get(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER()) > 0)
+    {
+      output->Initialize();
+      return;
+    }
     const vtkSmartPointer<vtkDataSet> input = hybridtree::joined(blocks);
     if (!input)
     {
       throw hybridtree::InvalidGeometry("There is no data. Check the filter it comes from.");
     }
     this->Reconstruct(input, output);
-    return 1;
-  }
-  catch (const hybridtree::Cancelled&) // the user's wish, not an error
-  {
-    output->Initialize();
-    return 1;
-  }
-  catch (const std::exception& error)
-  {
-    output->Initialize();
-    vtkErrorMacro(<< error.what());
-    return 0;
-  }
+  };
+  return hybridtree::runOnAll(this, work, [&] { output->Initialize(); });
 }
 
 //------------------------------------------------------------------------------
@@ -301,8 +291,7 @@ void vtkHybridTreeReconstruction::Reconstruct(vtkDataSet* input, vtkPolyData* ou
     this->Kept->clear();
   }
   this->TellEstimate(points.size(),
-    this->LevelOfDetail == ALL_POINTS ? estimateWork(points.size())
-                                      : estimateWork(points, detail));
+    this->LevelOfDetail == ALL_POINTS ? estimateWork(points.size()) : estimateWork(points, detail));
   ReconstructedSurface surface = keep   ? this->Kept->update(points, detail, options, part)
     : this->LevelOfDetail == ALL_POINTS ? reconstruct(points, options, part)
                                         : reconstruct(points, detail, options, part);

@@ -13,6 +13,7 @@ namespace
 {
 
 constexpr int kLargestExponent = 64;
+constexpr double kLeastRatio = 1e-6; // its square is told from 1 by four digits of a double
 
 void requireExponent(int exponent)
 {
@@ -54,6 +55,12 @@ Potential Potential::bySurfaceRadius(
   {
     throw InvalidParameter("SurfaceRadius", surfaceRadius,
       "at least 0 and less than InfluenceRadius, where the field ends");
+  }
+  if (surfaceRadius > 0.0 && ratio < kLeastRatio)
+  {
+    throw InvalidParameter("InfluenceRadius", influenceRadius,
+      "at most 1000000 times SurfaceRadius, for the surface to be told from the skeleton in double "
+      "precision");
   }
   if (!std::isfinite(maximumField))
   {

@@ -25,7 +25,8 @@ public:
   Potential(double maximumField, double influenceRadius, int exponent);
 
   /// The potential whose surface lies at surfaceRadius: I = +-T / (1 - r_T^2/R^2)^n.
-  /// A negative one reaches -T there. \throws InvalidParameter unless 0 <= surfaceRadius < R.
+  /// A negative one reaches -T there. \throws InvalidParameter unless 0 <= surfaceRadius < R and
+  /// surfaceRadius is 0 or at least R / 1000000.
   static Potential bySurfaceRadius(
     double surfaceRadius, double influenceRadius, int exponent, bool negative = false);
 

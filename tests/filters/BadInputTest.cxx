@@ -223,7 +223,8 @@ TEST(BadInput, PointSetsNameTheReconstruction)
   shape.data->SetPolys(nullptr);
   vtkNew<vtkHybridTreeBlend> blend;
   blend->AddInputData(shape.data);
-  expectError(blend, { "Input 0 of port 0", "4 points", "HybridTree Surface Reconstruction" });
+  expectError(
+    blend, { "Input: The input is a point set", "4 points", "HybridTree Surface Reconstruction" });
 }
 
 TEST(BadInput, EmptyData)

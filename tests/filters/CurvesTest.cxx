@@ -188,6 +188,7 @@ TEST(Curves, AllCurvesAreOneNode)
   Drawing drawing;
   vtkNew<vtkHybridTreeCurveSkeletons> curves;
   curves->SetInputData(drawing.data);
+  curves->SetSurfaceRadius(0.1);
   curves->SetEdgeLength(0.05);
   for (const int as :
     { vtkHybridTreeCurveSkeletons::SEGMENTS, vtkHybridTreeCurveSkeletons::SPLINE })
@@ -214,6 +215,7 @@ TEST(Curves, BlendsAcrossAreLargerThanUnions)
   Drawing drawing;
   vtkNew<vtkHybridTreeCurveSkeletons> curves;
   curves->SetInputData(drawing.data);
+  curves->SetSurfaceRadius(0.1);
   curves->SetEdgeLength(0.05);
   curves->Update();
   const double blended = volumeOf(curves->GetOutput());
@@ -240,6 +242,29 @@ TEST(Curves, TheRadiusArrayIsTheRadiusOfTheSurface)
   EXPECT_EQ(side[1], -1);
   EXPECT_EQ(side[2], 1);
   EXPECT_EQ(side[3], -1);
+}
+
+TEST(Curves, DefaultRadiiFitTheInput)
+{
+  Drawing drawing;
+  vtkNew<vtkHybridTreeCurveSkeletons> curves;
+  curves->SetInputData(drawing.data);
+  curves->Update();
+  expectSolid(curves->GetOutput());
+  const double volume = volumeOf(curves->GetOutput());
+  for (vtkIdType k = 0; k < drawing.points->GetNumberOfPoints(); ++k)
+  {
+    double x[3];
+    drawing.points->GetPoint(k, x);
+    drawing.points->SetPoint(k, 1e3 * x[0], 1e3 * x[1], 1e3 * x[2]);
+  }
+  drawing.data->Modified();
+  curves->Update();
+  EXPECT_NEAR(volumeOf(curves->GetOutput()), 1e9 * volume, 1e7 * volume);
+  curves->SetInfluenceRadius(10.0); // less than twice the radius that fits
+  curves->Update();
+  expectSolid(curves->GetOutput());
+  EXPECT_LT(volumeOf(curves->GetOutput()), 1e8 * volume);
 }
 
 TEST(Curves, AnEditOfTheInputIsSeen)

@@ -173,6 +173,10 @@ TEST(Potential, BadValuesAreNamed)
   EXPECT_NE(message([] { Potential::bySurfaceRadius(1.0 - 1e-15, 1.0, 64); })
               .find("enlarge InfluenceRadius or lower Exponent"),
     std::string::npos);
+  EXPECT_EQ(message([] { Potential::bySurfaceRadius(0.001, 1e6, 2); }),
+    "InfluenceRadius is 1e+06; it must be at most 1000000 times SurfaceRadius, for the surface to "
+    "be "
+    "told from the skeleton in double precision.");
 }
 
 } // namespace
