@@ -21,9 +21,15 @@ constexpr std::size_t kMostLocals = 64;
 
 } // namespace
 
-Delaunay::Place Delaunay::locate(const Vec3& point, std::int32_t near)
+Delaunay::Place Delaunay::locate(const Vec3& point, std::int32_t start)
 {
-  return this->placeIn(this->walk(anywhere_, point, this->startOfWalk(near)), point);
+  return this->locate(anywhere_, point, start);
+}
+
+Delaunay::Place Delaunay::locate(Worker& worker, const Vec3& point, std::int32_t start) const
+{
+  const std::int32_t cell = this->walk(worker, point, start);
+  return cell < 0 ? Place{ -1, -1 } : this->placeIn(cell, point);
 }
 
 Delaunay::Place Delaunay::placeIn(std::int32_t cell, const Vec3& point) const
@@ -64,7 +70,7 @@ bool Delaunay::mayCross(const Worker& worker, std::int32_t halfFacet) const
   for (const std::int32_t vertex : this->facet(halfFacet))
   {
     const int slab = vertex == kInfinite ? first : slabs_[vertex];
-    if (slab == worker.slab || (first != 0 && slab != first))
+    if (slab == worker.slab_ || (first != 0 && slab != first))
     {
       return true;
     }
@@ -141,11 +147,14 @@ void Delaunay::findCavity(const Vec3& point, const Place& place, Cavity& cavity)
   this->findCavity(anywhere_, point, place.cell, cavity);
 }
 
+bool Delaunay::findCavity(Worker& worker, const Vec3& point, const Place& place, Cavity& cavity)
+{
+  return this->findCavity(worker, point, place.cell, cavity);
+}
+
 // \returns whether all of it belongs to the worker.
 bool Delaunay::findCavity(Worker& worker, const Vec3& point, std::int32_t start, Cavity& cavity)
 {
-  const auto unmarked = static_cast<std::uint8_t>(kMarks * worker.slab);
-  const auto mark = [&](std::int32_t cell, std::uint8_t as) { marks_[cell] = unmarked + as; };
   cavity.cells.clear();
   cavity.border.clear();
   worker.marked.clear();
@@ -153,7 +162,7 @@ bool Delaunay::findCavity(Worker& worker, const Vec3& point, std::int32_t start,
   if (whole)
   {
     cavity.cells.push_back(start);
-    mark(start, kInCavity);
+    marks_[start] |= kInCavity;
   }
   for (std::size_t k = 0; whole && k < cavity.cells.size(); ++k)
   {
@@ -161,18 +170,18 @@ bool Delaunay::findCavity(Worker& worker, const Vec3& point, std::int32_t start,
     for (std::int32_t facet = 0; facet < 4; ++facet)
     {
       const std::int32_t beyond = cells_[cell].beyond[facet] >> 2;
-      const std::uint8_t marked = marks_[beyond];
-      bool outside = marked == unmarked + kOutside;
-      if (marked == unmarked)
-      {
-        outside = !this->inConflict(cells_[beyond], point);
-        mark(beyond, outside ? kOutside : kInCavity);
-        (outside ? worker.marked : cavity.cells).push_back(beyond);
-      }
-      else if (marked / kMarks != worker.slab) // so it may not be marked
+      const int flag = marks_[beyond] & kFlags;
+      bool outside = flag == kOutside;
+      if (!this->belongs(worker, beyond)) // so it may not be marked
       {
         outside = !this->inConflict(cells_[beyond], point);
         whole = whole && outside;
+      }
+      else if (flag == 0)
+      {
+        outside = !this->inConflict(cells_[beyond], point);
+        marks_[beyond] |= outside ? kOutside : kInCavity;
+        (outside ? worker.marked : cavity.cells).push_back(beyond);
       }
       if (outside)
       {
@@ -180,37 +189,76 @@ bool Delaunay::findCavity(Worker& worker, const Vec3& point, std::int32_t start,
       }
     }
   }
-  for (const std::int32_t cell : worker.marked)
-  {
-    marks_[cell] = unmarked;
-  }
-  for (const std::int32_t cell : cavity.cells)
-  {
-    marks_[cell] = unmarked;
-  }
+  this->unmark(worker.marked);
+  this->unmark(cavity.cells);
   return whole;
+}
+
+void Delaunay::unmark(const std::vector<std::int32_t>& cells)
+{
+  for (const std::int32_t cell : cells)
+  {
+    marks_[cell] &= static_cast<std::uint8_t>(~kFlags);
+  }
 }
 
 void Delaunay::star(std::int32_t vertex, std::vector<std::int32_t>& cells)
 {
   cells.assign(1, cellOf_[vertex]);
-  marks_[cells[0]] = kInCavity;
+  marks_[cells[0]] |= kInCavity;
   for (std::size_t k = 0; k < cells.size(); ++k)
   {
     const Cell& cell = cells_[cells[k]];
     for (int facet = 0; facet < 4; ++facet)
     {
       const std::int32_t beyond = cell.beyond[facet] >> 2;
-      if (cell.vertices[facet] != vertex && marks_[beyond] == 0)
+      if (cell.vertices[facet] != vertex && (marks_[beyond] & kFlags) == 0)
       {
-        marks_[beyond] = kInCavity;
+        marks_[beyond] |= kInCavity;
         cells.push_back(beyond);
       }
     }
   }
-  for (const std::int32_t cell : cells)
+  this->unmark(cells);
+}
+
+void Delaunay::renumber(const RawVector<Cell>& cells)
+{
+  cells_ = cells;
+  marks_.assign(cells_.size(), 0);
+  anywhere_.unused.clear();
+  for (std::int32_t cell = this->cellCount(); cell-- > 0;)
   {
-    marks_[cell] = 0;
+    for (const std::int32_t vertex : cells_[cell].vertices)
+    {
+      if (vertex != kInfinite)
+      {
+        cellOf_[vertex] = cell;
+      }
+    }
+  }
+}
+
+void Delaunay::removePoints(const std::vector<std::uint8_t>& kept)
+{
+  std::vector<std::int32_t> number(kept.size());
+  std::int32_t next = 0;
+  for (std::size_t point = 0; point < kept.size(); ++point)
+  {
+    number[point] = next;
+    points_[next] = points_[point];
+    cellOf_[next] = cellOf_[point];
+    next += kept[point];
+  }
+  points_.resize(next);
+  cellOf_.resize(next);
+  local_.resize(next);
+  for (Cell& cell : cells_)
+  {
+    for (std::int32_t& vertex : cell.vertices)
+    {
+      vertex = cell.vertices[0] >= kInfinite && vertex >= 0 ? number[vertex] : vertex;
+    }
   }
 }
 
@@ -220,55 +268,66 @@ std::int32_t Delaunay::fill(const Vec3& point, Cavity& cavity)
   points_.push_back(point);
   cellOf_.push_back(-1);
   local_.push_back(0);
+  if (!slabs_.empty())
+  {
+    slabs_.push_back(static_cast<std::uint8_t>(this->slabOf(point)));
+  }
   this->fill(anywhere_, vertex, cavity);
+  for (std::size_t k = 0; k < cavity.cells.size() && !slabs_.empty(); ++k)
+  {
+    this->markSlab(cavity.cells[k]);
+  }
   return vertex;
 }
 
-// \returns false, and changes nothing, if the worker has no cells left for it.
-bool Delaunay::fill(Worker& worker, std::int32_t point, Cavity& cavity)
+void Delaunay::fill(Worker& worker, std::int32_t vertex, const Vec3& point, Cavity& cavity)
+{
+  points_[vertex] = point;
+  this->fill(worker, vertex, cavity);
+}
+
+bool Delaunay::hasCells(const Worker& worker, const Cavity& cavity) const
+{
+  return worker.slab_ == 0 ||
+    cavity.cells.size() + worker.unused.size() +
+      static_cast<std::size_t>(worker.endCell - worker.nextCell) >=
+    cavity.border.size();
+}
+
+void Delaunay::fill(Worker& worker, std::int32_t point, Cavity& cavity)
 {
   worker.bases.clear();
   for (const std::int32_t inner : cavity.border)
   {
     worker.bases.push_back({ this->facet(inner), this->beyond(inner), {} });
   }
-  if (!this->provideCells(worker, cavity))
-  {
-    return false;
-  }
+  this->takeCells(worker, cavity);
   this->makeCells(worker, point, cavity);
   cellOf_[point] = cavity.cells[0];
-  return true;
 }
 
 // As many as there are bases: their own places first, then those that were given up, then new ones.
-bool Delaunay::provideCells(Worker& worker, Cavity& cavity)
+void Delaunay::takeCells(Worker& worker, Cavity& cavity)
 {
   const std::size_t wanted = worker.bases.size();
-  if (worker.slab != 0 &&
-    cavity.cells.size() + worker.unused.size() +
-        static_cast<std::size_t>(worker.endCell - worker.nextCell) <
-      wanted)
-  {
-    return false;
-  }
+  const std::int32_t unused = worker.slab_ == 0 ? kUnused : kGiven;
   while (cavity.cells.size() > wanted)
   {
     worker.unused.push_back(cavity.cells.back());
-    cells_[cavity.cells.back()].vertices[0] = kUnused;
+    cells_[cavity.cells.back()].vertices[0] = unused;
     cavity.cells.pop_back();
   }
   while (cavity.cells.size() < wanted && !worker.unused.empty())
   {
     const std::int32_t cell = worker.unused.back();
     worker.unused.pop_back();
-    if (!this->used(cell)) // it may be listed twice, and used since
+    if (cells_[cell].vertices[0] == unused) // it may be listed twice, and used since
     {
       cells_[cell].vertices[0] = 0;
       cavity.cells.push_back(cell);
     }
   }
-  if (worker.slab == 0 && cavity.cells.size() < wanted)
+  if (worker.slab_ == 0 && cavity.cells.size() < wanted)
   {
     const std::size_t end = cells_.size() + wanted - cavity.cells.size();
     if (end > kMostCells)
@@ -284,11 +343,10 @@ bool Delaunay::provideCells(Worker& worker, Cavity& cavity)
   {
     cavity.cells.push_back(worker.nextCell++);
   }
-  return true;
 }
 
-void Delaunay::takeBack(
-  const std::vector<std::int32_t>& star, const Replaced* begin, const Replaced* end)
+void Delaunay::takeBack(std::int32_t vertex, const std::vector<std::int32_t>& star,
+  const Replaced* begin, const Replaced* end)
 {
   for (const std::int32_t cell : star)
   {
@@ -311,9 +369,9 @@ void Delaunay::takeBack(
       }
     }
   }
-  points_.pop_back();
-  cellOf_.pop_back();
-  local_.pop_back();
+  points_.resize(vertex);
+  cellOf_.resize(vertex);
+  local_.resize(vertex);
 }
 
 std::int32_t Delaunay::localOf(Worker& worker, std::int32_t vertex)
@@ -334,7 +392,7 @@ void Delaunay::makeCells(Worker& worker, std::int32_t point, Cavity& cavity)
   worker.locals.clear();
   for (std::size_t k = 0; k < worker.bases.size(); ++k)
   {
-    Base& base = worker.bases[k];
+    Worker::Base& base = worker.bases[k];
     const std::int32_t number = cavity.cells[k];
     Cell& cell = cells_[number];
     cell.vertices = { point, base.corners[0], base.corners[1], base.corners[2] };

@@ -44,6 +44,37 @@ public:
     std::vector<std::int32_t> border; // half-facets of those cells that bound them
   };
 
+  /// Who inserts points one after the other, with what that takes. Several at a time have a slab of
+  /// space each. A cell belongs to a slab if all its finite vertices do; those that belong to none
+  /// stay as they are meanwhile, and nobody looks at others' cells. So they need no locks, and what
+  /// comes out does not depend on who is first.
+  class Worker
+  {
+  public:
+    int slab() const { return slab_; }
+
+  private:
+    friend class Delaunay;
+    struct Base
+    {
+      std::array<std::int32_t, 3> corners;
+      std::int32_t outer;                // half-facet
+      std::array<std::int32_t, 3> local; // of the corners
+    };
+    int slab_ = 0;                    // from 1 on; 0: all space is its own
+    std::int32_t nextCell = 0;        // new ones are made from here ...
+    std::int32_t endCell = 0;         // ... to here
+    std::vector<std::int32_t> unused; // cells given up
+    std::uint32_t turn = 1;           // of the walk: where it looks first
+    // Scratch of one insertion.
+    Cavity cavity;
+    std::vector<std::int32_t> marked;
+    std::vector<Base> bases;
+    std::vector<std::int32_t> locals;
+    std::int32_t infiniteLocal = 0;
+    std::vector<std::int32_t> edges; // half-facets by pairs of locals
+  };
+
   /// Of a point: a cell that holds it; the vertex that it coincides with, else -1.
   struct Place
   {
@@ -65,7 +96,7 @@ public:
   /// All cells ever made; those not in use have no vertices.
   std::int32_t cellCount() const { return static_cast<std::int32_t>(cells_.size()); }
   const Cell& cell(std::int32_t cell) const { return cells_[cell]; }
-  bool used(std::int32_t cell) const { return cells_[cell].vertices[0] != kUnused; }
+  bool used(std::int32_t cell) const { return cells_[cell].vertices[0] >= kInfinite; }
   bool finite(std::int32_t cell) const
   {
     const auto& v = cells_[cell].vertices;
@@ -81,6 +112,9 @@ public:
   {
     return cells_[halfFacet >> 2].beyond[halfFacet & 3];
   }
+  /// Puts the same cells in another order, so that what is near is near in memory. Numbers of cells
+  /// from before have no meaning any more. \param cells all that are used.
+  void renumber(const RawVector<Cell>& cells);
   /// A cell around a vertex; -1 where the point is not inserted.
   std::int32_t cellOf(std::int32_t vertex) const { return cellOf_[vertex]; }
 
@@ -89,8 +123,14 @@ public:
 
   /// The rest serves who looks at what an insertion would change, and then decides.
   /// \pre spansVolume(); the place found is the point's; nothing is inserted in between.
-  /// \param near a vertex from which to walk to the point.
-  Place locate(const Vec3& point, std::int32_t near);
+  /// \param start a cell from which to walk to the point.
+  Place locate(const Vec3& point, std::int32_t start);
+  /// Whether the ball around a cell holds a point, which then coincides with no vertex: a place as
+  /// good as that of locate().
+  bool holds(std::int32_t cell, const Vec3& point) const
+  {
+    return this->inConflict(cells_[cell], point);
+  }
   /// \pre the point coincides with no vertex.
   void findCavity(const Vec3& point, const Place& place, Cavity& cavity);
   /// Inserts the point of the last findCavity. \returns its vertex.
@@ -104,59 +144,66 @@ public:
     std::int32_t number;
     Cell cell;
   };
-  /// Undoes the last insertion. \pre it was made by fill(), and replaced these cells.
-  /// \param star the cells around the last point.
-  void takeBack(const std::vector<std::int32_t>& star, const Replaced* begin, const Replaced* end);
+  /// Undoes the insertion of a vertex, and forgets those of higher numbers, which have no cells.
+  /// \pre it was made by fill(), and replaced these cells, of which none has changed since but
+  /// back. \param star the cells around the vertex.
+  void takeBack(std::int32_t vertex, const std::vector<std::int32_t>& star, const Replaced* begin,
+    const Replaced* end);
+
+  /// The same by several threads at a time, each with a worker of its own. Until join(), the
+  /// functions above may be called while no worker is at work, but for takeBack() and renumber().
+  /// \param points where they will insert: as many in each slab.
+  /// \param side across which of the sides of the box of all points, 0 the longest.
+  std::vector<Worker> part(const std::vector<Vec3>& points, int side);
+  /// Slab of a facet all of whose vertices are in it; 0: of several.
+  int slabOf(std::int32_t halfFacet) const;
+  /// Numbers, and cells, for so many more vertices of the worker's. \returns the first of them, to
+  /// be taken in order. Those that stay without cells are points all the same.
+  std::int32_t provide(Worker& worker, std::size_t vertices);
+  /// cell is -1, and false comes back and nothing is done, where others' space begins.
+  /// \param start a cell with a vertex of the worker's slab.
+  Place locate(Worker& worker, const Vec3& point, std::int32_t start) const;
+  bool findCavity(Worker& worker, const Vec3& point, const Place& place, Cavity& cavity);
+  /// Whether what was provided is enough to fill it.
+  bool hasCells(const Worker& worker, const Cavity& cavity) const;
+  void fill(Worker& worker, std::int32_t vertex, const Vec3& point, Cavity& cavity);
+  void join(std::vector<Worker>& workers);
+
+  /// Leaves out points that have no cells, and closes the gaps in their numbers.
+  /// \param kept per point; 1 for those with cells.
+  void removePoints(const std::vector<std::uint8_t>& kept);
 
 private:
   static constexpr std::int32_t kUnused = -2;
+  static constexpr std::int32_t kGiven = -3; // the same, and listed by a worker
   // Of a mark, what is left when divided by kMarks; the quotient is the slab of the cell.
   static constexpr int kMarks = 4;
+  static constexpr std::uint8_t kFlags = kMarks - 1;
   static constexpr std::uint8_t kInCavity = 1;
   static constexpr std::uint8_t kOutside = 2;
   static constexpr int kNoSlab = 63;
+  // Tetrahedra about a point of a surface, with the infinite ones, and some to spare.
+  static constexpr std::size_t kCellsPerPoint = 7;
   static constexpr std::size_t kMostCells = std::size_t(1) << 29; // half-facets are 32-bit numbers
-  struct Base
-  {
-    std::array<std::int32_t, 3> corners;
-    std::int32_t outer;                // half-facet
-    std::array<std::int32_t, 3> local; // of the corners
-  };
-  // Who inserts points one after the other, with what that takes. Several at a time have a slab of
-  // space each. A cell belongs to a slab if all its finite vertices do; those that belong to none
-  // stay as they are meanwhile, and nobody looks at others' cells. So they need no locks, and what
-  // comes out does not depend on who is first.
-  struct Worker
-  {
-    int slab = 0;                     // from 1 on; 0: all space is its own
-    std::int32_t nextCell = 0;        // new ones are made from here ...
-    std::int32_t endCell = 0;         // ... to here
-    std::vector<std::int32_t> unused; // cells given up
-    std::uint32_t turn = 1;           // of the walk: where it looks first
-    // Scratch of one insertion.
-    Cavity cavity;
-    std::vector<std::int32_t> marked;
-    std::vector<Base> bases;
-    std::vector<std::int32_t> locals;
-    std::int32_t infiniteLocal = 0;
-    std::vector<std::int32_t> edges; // half-facets by pairs of locals
-  };
-  using Order = std::vector<std::int32_t>; // points
+  using Order = std::vector<std::int32_t>;                        // points
 
   bool insertFirst();
   std::array<std::int32_t, 4> independent() const;
   Order insertMost(const Order& order, const Progress& progress);
   Order insertInSlabs(const Order& order, int axis, const Progress& progress);
-  std::vector<Order> divide(const Order& order, int axis);
-  void markSlabs();
-  void takeOver(const Worker& worker);
+  std::array<int, 3> axesBySize() const;
+  std::vector<Worker> makeSlabs(int axis, std::vector<double> places);
+  void markSlab(std::int32_t cell);
+  int slabOf(const Vec3& point) const;
+  void provideCells(Worker& worker, std::size_t points);
+  void giveUpRest(Worker& worker);
   std::int32_t startOf(const Worker& worker) const;
   Order insertAll(Worker& worker, const Order& order, const Progress& progress);
   bool insertPoint(Worker& worker, std::int32_t point, std::int32_t& near);
 
   bool belongs(const Worker& worker, std::int32_t cell) const
   {
-    return marks_[cell] / kMarks == worker.slab;
+    return worker.slab_ == 0 || marks_[cell] / kMarks == worker.slab_;
   }
   bool mayCross(const Worker& worker, std::int32_t halfFacet) const;
   std::int32_t startOfWalk(std::int32_t near) const;
@@ -164,8 +211,9 @@ private:
   Place placeIn(std::int32_t cell, const Vec3& point) const;
   bool inConflict(const Cell& cell, const Vec3& point) const;
   bool findCavity(Worker& worker, const Vec3& point, std::int32_t start, Cavity& cavity);
-  bool fill(Worker& worker, std::int32_t point, Cavity& cavity);
-  bool provideCells(Worker& worker, Cavity& cavity);
+  void unmark(const std::vector<std::int32_t>& cells);
+  void fill(Worker& worker, std::int32_t point, Cavity& cavity);
+  void takeCells(Worker& worker, Cavity& cavity);
   std::int32_t localOf(Worker& worker, std::int32_t vertex);
   void makeCells(Worker& worker, std::int32_t point, Cavity& cavity);
   void joinSmall(Worker& worker, const std::vector<std::int32_t>& cells);
@@ -174,9 +222,11 @@ private:
   std::vector<Vec3> points_;
   std::vector<std::int32_t> cellOf_; // per point
   RawVector<Cell> cells_;
-  std::vector<std::uint8_t> marks_; // per cell; all 0 between uses
+  std::vector<std::uint8_t> marks_; // per cell; between uses its slab, or 0, times kMarks
   std::vector<std::int32_t> local_; // per point: its place in locals, if there
-  std::vector<std::uint8_t> slabs_; // per point, while there are some
+  std::vector<std::uint8_t> slabs_; // per point, while there are some; else empty
+  int slabAxis_ = 0;
+  std::vector<double> slabBorders_;
   Worker anywhere_;
 };
 

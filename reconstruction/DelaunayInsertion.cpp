@@ -23,14 +23,10 @@ namespace
 
 // How many insertions between two looks at whether to go on.
 constexpr std::size_t kBreath = 256;
-// Tetrahedra about a point of a surface, with the infinite ones, and some to spare.
-constexpr std::size_t kCellsPerPoint = 7;
 // Fewer points are inserted by one worker.
 constexpr std::size_t kMany = 8192;
 // Of many points the first, which one worker inserts: tetrahedra must be small against the slabs.
 constexpr std::size_t kFirstShare = 64;
-// More would leave more points to be inserted after them.
-constexpr int kSlabs = 2;
 
 } // namespace
 
@@ -67,14 +63,21 @@ Delaunay::Order Delaunay::insertMost(const Order& order, const Progress& progres
   const auto coarse = order.begin() + static_cast<std::ptrdiff_t>(order.size() / kFirstShare);
   this->insertAll(anywhere_, Order(order.begin(), coarse), progress);
   // Those near the borders of slabs of one kind are mostly far from those of another.
+  const std::array<int, 3> axes = this->axesBySize();
+  Order left(coarse, order.end());
+  left = this->insertInSlabs(left, axes[0], ProgressPart(progress, 0.0, 0.8));
+  return this->insertInSlabs(left, axes[1], ProgressPart(progress, 0.8, 0.9));
+}
+
+// Of the points' box, the longest first.
+std::array<int, 3> Delaunay::axesBySize() const
+{
   const Box3 box = std::accumulate(
     points_.begin(), points_.end(), Box3(), [](Box3 all, const Vec3& p) { return all.extend(p); });
   std::array<int, 3> axes{ 0, 1, 2 };
   std::sort(
     axes.begin(), axes.end(), [&](int a, int b) { return box.sizes()[a] > box.sizes()[b]; });
-  Order left(coarse, order.end());
-  left = this->insertInSlabs(left, axes[0], ProgressPart(progress, 0.0, 0.8));
-  return this->insertInSlabs(left, axes[1], ProgressPart(progress, 0.8, 0.9));
+  return axes;
 }
 
 // Each slab by a worker of its own. \returns those that were not inserted, in the same order.
@@ -84,20 +87,18 @@ Delaunay::Order Delaunay::insertInSlabs(const Order& order, int axis, const Prog
   {
     return order;
   }
-  const std::vector<Order> parts = this->divide(order, axis);
-  std::vector<Worker> workers(parts.size());
-  std::int32_t nextCell = this->cellCount();
+  std::vector<double> places(order.size());
+  std::transform(order.begin(), order.end(), places.begin(),
+    [&](std::int32_t point) { return points_[point][axis]; });
+  std::vector<Worker> workers = this->makeSlabs(axis, std::move(places));
+  std::vector<Order> parts(workers.size());
+  for (const std::int32_t point : order)
+  {
+    parts[slabs_[point] - 1].push_back(point);
+  }
   for (std::size_t k = 0; k < parts.size(); ++k)
   {
-    workers[k].slab = static_cast<int>(k) + 1;
-    workers[k].nextCell = nextCell;
-    workers[k].endCell = nextCell += static_cast<std::int32_t>(kCellsPerPoint * parts[k].size());
-  }
-  this->markSlabs();
-  cells_.resize(nextCell);
-  for (const Worker& worker : workers)
-  {
-    marks_.resize(worker.endCell, static_cast<std::uint8_t>(kMarks * worker.slab));
+    this->provideCells(workers[k], parts[k].size());
   }
   std::vector<Order> left(parts.size());
   parallelFor(parts.size(), 1,
@@ -108,12 +109,7 @@ Delaunay::Order Delaunay::insertInSlabs(const Order& order, int axis, const Prog
         left[k] = this->insertAll(workers[k], parts[k], progress);
       }
     });
-  for (Worker& worker : workers)
-  {
-    this->takeOver(worker);
-  }
   progress.report(1.0);
-  std::fill(marks_.begin(), marks_.end(), 0);
   Order all;
   std::vector<std::size_t> next(left.size(), 0);
   std::copy_if(order.begin(), order.end(), std::back_inserter(all),
@@ -124,72 +120,8 @@ Delaunay::Order Delaunay::insertInSlabs(const Order& order, int axis, const Prog
       next[slab] += is;
       return is;
     });
+  this->join(workers);
   return all;
-}
-
-// Cells that the worker has not used.
-void Delaunay::takeOver(const Worker& worker)
-{
-  std::vector<std::int32_t>& unused = anywhere_.unused;
-  unused.insert(unused.end(), worker.unused.begin(), worker.unused.end());
-  for (std::int32_t cell = worker.endCell; cell-- > worker.nextCell;)
-  {
-    cells_[cell].vertices[0] = kUnused;
-    unused.push_back(cell);
-  }
-}
-
-void Delaunay::markSlabs()
-{
-  parallelFor(cells_.size(), 8192,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (std::size_t cell = begin; cell < end; ++cell)
-      {
-        if (!this->used(static_cast<std::int32_t>(cell)))
-        {
-          continue;
-        }
-        int slab = 0;
-        for (const std::int32_t vertex : cells_[cell].vertices)
-        {
-          const int other = vertex < 0 ? slab : slabs_[vertex];
-          slab = slab == 0 || slab == other ? other : kNoSlab;
-        }
-        marks_[cell] = static_cast<std::uint8_t>(kMarks * slab);
-      }
-    });
-}
-
-// Into slabs across an axis of as many points each, all in the same order.
-std::vector<Delaunay::Order> Delaunay::divide(const Order& order, int axis)
-{
-  std::vector<double> places(order.size());
-  std::transform(order.begin(), order.end(), places.begin(),
-    [&](std::int32_t point) { return points_[point][axis]; });
-  std::array<double, kSlabs - 1> borders;
-  auto begin = places.begin();
-  for (int k = 1; k < kSlabs; ++k)
-  {
-    const auto border = places.begin() + static_cast<std::ptrdiff_t>(k * places.size() / kSlabs);
-    std::nth_element(begin, border, places.end());
-    borders[k - 1] = *border;
-    begin = border;
-  }
-  slabs_.resize(points_.size());
-  for (std::size_t point = 0; point < points_.size(); ++point)
-  {
-    const double place = points_[point][axis];
-    slabs_[point] = static_cast<std::uint8_t>(1 +
-      std::count_if(
-        borders.begin(), borders.end(), [&](double border) { return border <= place; }));
-  }
-  std::vector<Order> parts(kSlabs);
-  for (const std::int32_t point : order)
-  {
-    parts[slabs_[point] - 1].push_back(point);
-  }
-  return parts;
 }
 
 // \returns those that were not inserted, in the same order.
@@ -197,7 +129,7 @@ Delaunay::Order Delaunay::insertAll(Worker& worker, const Order& order, const Pr
 {
   Order left;
   std::int32_t near = this->startOf(worker);
-  if (near < 0 && worker.slab != 0)
+  if (near < 0 && worker.slab_ != 0)
   {
     return order;
   }
@@ -206,7 +138,7 @@ Delaunay::Order Delaunay::insertAll(Worker& worker, const Order& order, const Pr
     if (k % kBreath == 0)
     {
       progress.check();
-      if (worker.slab == 0) // else this may be another thread than the caller's
+      if (worker.slab_ == 0) // else this may be another thread than the caller's
       {
         progress.report(double(k) / double(order.size()));
       }
@@ -224,7 +156,7 @@ std::int32_t Delaunay::startOf(const Worker& worker) const
 {
   for (std::int32_t point = 0; point < static_cast<std::int32_t>(cellOf_.size()); ++point)
   {
-    if ((worker.slab == 0 || slabs_[point] == worker.slab) && cellOf_[point] >= 0)
+    if ((worker.slab_ == 0 || slabs_[point] == worker.slab_) && cellOf_[point] >= 0)
     {
       return point;
     }
@@ -250,11 +182,11 @@ bool Delaunay::insertPoint(Worker& worker, std::int32_t point, std::int32_t& nea
     near = place.vertex;
     return true;
   }
-  if (!this->findCavity(worker, p, cell, worker.cavity) ||
-    !this->fill(worker, point, worker.cavity))
+  if (!this->findCavity(worker, p, cell, worker.cavity) || !this->hasCells(worker, worker.cavity))
   {
     return false;
   }
+  this->fill(worker, point, worker.cavity);
   near = point;
   return true;
 }

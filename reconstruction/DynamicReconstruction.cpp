@@ -106,9 +106,9 @@ void DynamicReconstruction::remove(const std::vector<std::int32_t>& points)
     return;
   }
   const auto& used = state_->pointOfSite;
-  const auto first = static_cast<std::size_t>(
-    std::find_if(used.begin(), used.end(), [&](std::int32_t p) { return removed_[p] != 0; }) -
-    used.begin());
+  const auto gone = [&](std::int32_t point) { return point >= 0 && removed_[point] != 0; };
+  const auto first =
+    static_cast<std::size_t>(std::find_if(used.begin(), used.end(), gone) - used.begin());
   if (first < state_->baseSites)
   {
     state_.reset();
@@ -269,6 +269,7 @@ void DynamicReconstruction::addSites(
   std::vector<Vec3> sites(points.size());
   std::transform(points.begin(), points.end(), sites.begin(),
     [&](std::int32_t point) { return points_[point]; });
+  this->removeUnusedSites();
   const std::vector<std::int32_t> order = spatialOrder(sites, progress);
   for (std::size_t k = 0; k < order.size(); ++k)
   {
@@ -277,6 +278,19 @@ void DynamicReconstruction::addSites(
     state_->pointOfSite.push_back(point);
   }
   state_->surface.insert(sites, progress);
+}
+
+void DynamicReconstruction::removeUnusedSites()
+{
+  std::vector<std::int32_t>& points = state_->pointOfSite;
+  std::vector<std::uint8_t> kept(points.size());
+  std::transform(
+    points.begin(), points.end(), kept.begin(), [](std::int32_t point) { return point >= 0; });
+  if (std::find(kept.begin(), kept.end(), 0) != kept.end())
+  {
+    state_->surface.removeSites(kept);
+    points.erase(std::remove(points.begin(), points.end(), -1), points.end());
+  }
 }
 
 // \returns whether there is a solid to go on from.
@@ -339,22 +353,13 @@ std::ptrdiff_t DynamicReconstruction::eulerNumber() const
   return std::ptrdiff_t(this->vertexCount()) - std::ptrdiff_t(state_->surface.surface().size() / 2);
 }
 
-void DynamicReconstruction::follow()
-{
-  const DynamicSurface::Change& change = state_->surface.lastChange();
-  state_->moreTriangles +=
-    std::ptrdiff_t(change.added.size()) - std::ptrdiff_t(change.removed.size());
-  state_->near.follow(state_->surface);
-}
-
 void DynamicReconstruction::takeBack()
 {
-  if (state_->surface.undo())
-  {
-    state_->pointOfSite.pop_back();
-  }
+  state_->surface.undo();
+  state_->pointOfSite.resize(state_->surface.sites().size());
   state_->reach.pop_back();
-  this->follow();
+  this->follow(alone_);
+  state_->moreTriangles += std::exchange(alone_.moreTriangles, 0);
 }
 
 void DynamicReconstruction::takeBackTo(const LevelOfDetail& detail, const Progress& progress)

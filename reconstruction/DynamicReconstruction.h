@@ -70,9 +70,9 @@ private:
     explicit State(const std::vector<Vec3>& points) : near(points) {}
     DynamicSurface surface;
     TrianglePoints near;
-    std::vector<std::int32_t> pointOfSite;
-    std::vector<double> reach;    // per step: how far its point was from the surface
-    std::size_t baseVertices = 0; // after convection
+    std::vector<std::int32_t> pointOfSite; // -1 where a site is unused
+    std::vector<double> reach;             // per step: how far its point was from the surface
+    std::size_t baseVertices = 0;          // after convection
     std::size_t baseSites = 0;
     std::ptrdiff_t moreTriangles = 0; // since then
     std::vector<std::string> warnings;
@@ -86,6 +86,20 @@ private:
     {
       return distance != other.distance ? distance > other.distance : point < other.point;
     }
+  };
+  // Who places points, beside others or alone.
+  struct Helper
+  {
+    DynamicSurface::Hand hand;        // beside others
+    std::vector<std::int32_t> points; // to be placed
+    TrianglePoints::Scratch scratch;
+    // What it has done that others do not know yet.
+    std::vector<double> reach;
+    std::ptrdiff_t moreTriangles = 0;
+    std::vector<Candidate> candidates;
+    bool placed = false;
+    bool refused = false;
+    std::vector<std::int32_t> left; // neither
   };
   // What is refined, and how far.
   struct Phase
@@ -123,17 +137,32 @@ private:
   std::vector<std::int32_t> representatives() const;
   bool addFiner(const Progress& progress);
   void addSites(const std::vector<std::int32_t>& points, const Progress& progress);
+  void removeUnusedSites();
   bool convect(const Progress& progress);
   void measureAll(const Progress& progress);
   void measureNew(const Progress& progress);
   std::size_t vertexCount() const;
   std::ptrdiff_t eulerNumber() const;
-  void follow();
   void takeBack();
   void takeBackTo(const LevelOfDetail& detail, const Progress& progress);
   void refine(const Phase& phase, const Progress& progress);
   bool refineOnce(
     const Phase& phase, const std::vector<std::int32_t>& triangles, const Progress& progress);
+  std::vector<std::int32_t> placeTogether(
+    const Phase& phase, const std::vector<std::int32_t>& round, const Progress& progress);
+  std::vector<std::int32_t> placeBySlabs(
+    const Phase& phase, std::vector<std::int32_t> round, const Progress& progress);
+  void placeAll(Helper& helper, const Phase& phase, const Progress& progress);
+  bool place(Helper& helper, const Phase& phase, std::int32_t point);
+  const DynamicSurface::Hand& handOf(const Helper& helper) const;
+  void follow(Helper& helper);
+  void gather(Helper& helper);
+  Candidate farthestOf(const Phase& phase, std::int32_t triangle) const;
+  bool isWanted(const Phase& phase, std::int32_t point) const;
+  void offer(const Candidate& candidate);
+  void offerAll(const Phase& phase, const std::vector<std::int32_t>& triangles);
+  void callHelpers(const std::vector<std::int32_t>& points, int side);
+  void dismissHelpers();
   bool place(const Phase& phase, std::int32_t point);
   bool reach(const Phase& phase, std::int32_t point);
   void offerFarthest(const Phase& phase, std::int32_t triangle);
@@ -159,6 +188,8 @@ private:
   std::size_t measured_ = 0;          // points that are with a triangle, or removed
   std::unique_ptr<State> state_;      // null: to be started again
   std::vector<Candidate> candidates_; // scratch; some no longer hold
+  Helper alone_;                      // scratch
+  std::vector<Helper> helpers_;       // of a refinement
   SizeQueue waiting_;                 // of those, by distance
 };
 

@@ -2,6 +2,8 @@
 // How DynamicReconstruction adds points to its surface.
 #include "reconstruction/DynamicReconstruction.h"
 
+#include "core/base/Parallel.h"
+
 #include <algorithm>
 #include <utility>
 
@@ -16,6 +18,8 @@ constexpr int kRestarts = 3;
 constexpr double kFewFar = 0.002;
 // How often points that were refused are tried again, where others have been placed since.
 constexpr int kTries = 6;
+// How many steps between two looks at whether to go on.
+constexpr std::size_t kBreath = 64;
 // How often all points that are too far are tried.
 constexpr int kMostRounds = 10;
 
@@ -49,31 +53,52 @@ bool DynamicReconstruction::refineOnce(
 {
   candidates_.clear();
   waiting_ = {};
-  for (const std::int32_t triangle : triangles)
-  {
-    this->offerFarthest(phase, triangle);
-  }
-  bool placed = false;
-  bool refused = false;
+  this->offerAll(phase, triangles);
+  alone_.placed = alone_.refused = false;
   std::size_t step = 0;
   for (std::vector<std::int32_t> round = this->nextRound(phase);
        !round.empty() && this->vertexCount() < phase.vertices; round = this->nextRound(phase))
   {
-    for (const std::int32_t point : round)
+    step += round.size();
+    progress.report(1.0 - 1.0 / (1.0 + 1e-4 * double(step)));
+    round = this->placeBySlabs(phase, std::move(round), progress);
+    for (std::size_t k = 0; k < round.size(); ++k)
     {
-      if (++step % 256 == 0)
+      if (k % kBreath == 0)
       {
         progress.check();
-        progress.report(1.0 - 1.0 / (1.0 + 1e-4 * double(step)));
       }
-      if (this->vertexCount() < phase.vertices && !state_->near.refused(point) &&
-        phase.wants(points_[point], state_->near.distance(point)))
+      if (this->vertexCount() < phase.vertices && this->isWanted(phase, round[k]))
       {
-        (this->place(phase, point) ? placed : refused) = true;
+        this->place(phase, round[k]);
       }
     }
   }
-  return placed && refused;
+  this->dismissHelpers();
+  return alone_.placed && alone_.refused;
+}
+
+bool DynamicReconstruction::isWanted(const Phase& phase, std::int32_t point) const
+{
+  return !state_->near.refused(point) && phase.wants(points_[point], state_->near.distance(point));
+}
+
+void DynamicReconstruction::offerAll(const Phase& phase, const std::vector<std::int32_t>& triangles)
+{
+  constexpr std::size_t kGrain = 4096;
+  std::vector<Candidate> farthest(triangles.size());
+  parallelFor(triangles.size(), kGrain,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t k = begin; k < end; ++k)
+      {
+        farthest[k] = this->farthestOf(phase, triangles[k]);
+      }
+    });
+  for (const Candidate& candidate : farthest)
+  {
+    this->offer(candidate);
+  }
 }
 
 // Of the candidates the farthest: those more than half as far as the farthest of all, but no more
@@ -110,68 +135,36 @@ std::vector<std::int32_t> DynamicReconstruction::nextRound(const Phase& phase)
 // \returns whether it is no longer too far.
 bool DynamicReconstruction::place(const Phase& phase, std::int32_t point)
 {
-  DynamicSurface& surface = state_->surface;
-  TrianglePoints& near = state_->near;
-  const std::int32_t triangle = near.triangle(point);
-  const double distance = near.distance(point);
-  const std::int32_t other = near.neighbor(point);
-  const auto placed = [&]
-  {
-    state_->reach.push_back(distance);
-    this->follow();
-    for (const std::int32_t added : surface.lastChange().added)
-    {
-      this->offerFarthest(phase, added);
-    }
-    if (other >= 0)
-    {
-      this->offerFarthest(phase, near.triangle(other));
-    }
-    return true;
-  };
-  switch (surface.place(points_[point], surface.triangle(triangle)[0], phase.tolerance, phase.way))
-  {
-    case DynamicSurface::Outcome::Prepared:
-      placed();
-      return phase.way == DynamicSurface::Way::Convected && this->place(phase, point);
-    case DynamicSurface::Outcome::Placed:
-      state_->pointOfSite.push_back(point);
-      [[fallthrough]];
-    case DynamicSurface::Outcome::Surfaced:
-      near.move(point, surface.lastChange().removed.front(), 0.0);
-      return placed();
-    case DynamicSurface::Outcome::Near:
-    case DynamicSurface::Outcome::Coincides:
-      near.move(point, surface.nearTriangle(), surface.nearDistance());
-      break;
-    case DynamicSurface::Outcome::Refused:
-      near.refuse(point);
-      this->offerFarthest(phase, triangle);
-      return false;
-  }
-  this->offerFarthest(phase, triangle);
-  return true;
+  const bool placed = this->place(alone_, phase, point);
+  this->gather(alone_);
+  return placed;
 }
 
-void DynamicReconstruction::offerFarthest(const Phase& phase, std::int32_t triangle)
+void DynamicReconstruction::offer(const Candidate& candidate)
+{
+  if (candidate.point >= 0)
+  {
+    waiting_.push(
+      static_cast<float>(candidate.distance), static_cast<std::int32_t>(candidates_.size()));
+    candidates_.push_back(candidate);
+  }
+}
+
+// Its point is -1 if none is wanted.
+DynamicReconstruction::Candidate DynamicReconstruction::farthestOf(
+  const Phase& phase, std::int32_t triangle) const
 {
   Candidate farthest{ 0.0, -1 };
   state_->near.forEach(triangle,
     [&](std::int32_t point)
     {
       const Candidate candidate{ state_->near.distance(point), point };
-      if (phase.wants(points_[point], candidate.distance) && !state_->near.refused(point) &&
-        (farthest.point < 0 || candidate < farthest))
+      if (this->isWanted(phase, point) && (farthest.point < 0 || candidate < farthest))
       {
         farthest = candidate;
       }
     });
-  if (farthest.point >= 0)
-  {
-    waiting_.push(
-      static_cast<float>(farthest.distance), static_cast<std::int32_t>(candidates_.size()));
-    candidates_.push_back(farthest);
-  }
+  return farthest;
 }
 
 std::vector<std::int32_t> DynamicReconstruction::farPoints(const Phase& phase) const
@@ -234,7 +227,8 @@ bool DynamicReconstruction::reach(const Phase& phase, std::int32_t point)
       {
         this->takeBack();
       }
-      state_->near.refuse(point);
+      state_->near.refuse(point, alone_.scratch);
+      state_->near.gather(alone_.scratch);
       return false;
     }
     if (!phase.wants(points_[point], state_->near.distance(point)))

@@ -15,6 +15,7 @@
 
 namespace hybridtree
 {
+
 void DynamicSurface::insert(const std::vector<Vec3>& points, const Progress& progress)
 {
   delaunay_.insert(points, progress);
@@ -26,61 +27,79 @@ Tetrahedralization DynamicSurface::tetrahedralization(const Progress& progress) 
 }
 
 void DynamicSurface::setInside(
-  const Tetrahedralization& tetrahedra, const std::vector<std::uint8_t>& inside)
+  const Tetrahedralization& tetrahedra, std::vector<std::uint8_t> inside)
 {
-  inside_.assign(delaunay_.cellCount(), 0);
-  marks_.assign(delaunay_.cellCount(), 0);
-  steps_.clear();
-  replaced_.clear();
-  replacedInside_.clear();
-  removed_.clear();
-  renamed_.clear();
-  for (std::int32_t cell = 0; cell < tetrahedra.cellCount(); ++cell)
-  {
-    inside_[tetrahedra.source(cell)] = inside[cell];
-  }
+  delaunay_.renumber(tetrahedra.cells());
+  inside_ = std::move(inside);
+  own_.history_ = {};
 }
 
 DynamicSurface::Outcome DynamicSurface::place(
-  const Vec3& point, std::int32_t near, double tolerance, Way way)
+  Hand& hand, const Vec3& point, std::int32_t triangle, double tolerance, Way way)
 {
-  const Delaunay::Place where = delaunay_.locate(point, near);
-  if (where.vertex >= 0)
+  hand.marks_.resize(delaunay_.cellCount(), 0);
+  const Delaunay::Place where = this->locate(hand, point, triangle);
+  if (where.vertex >= 0 && hand.alone_)
   {
     return this->surfaceAt(where.vertex, tolerance, way);
   }
-  delaunay_.findCavity(point, where, cavity_);
-  Hole hole = this->holeOf(cavity_.cells);
-  std::int32_t dent = -1;
-  if (hole.triangles.empty())
+  if (where.vertex >= 0 || where.cell < 0 || !this->findCavity(hand, point, where))
   {
-    dent = this->facetTowards(point, cavity_.border, way);
+    return Outcome::Left;
+  }
+  const Delaunay::Cavity& cavity = hand.cavity_;
+  this->findHole(hand);
+  std::vector<std::int32_t>& hole = hand.hole_;
+  std::int32_t dent = -1;
+  if (hole.empty())
+  {
+    dent = this->facetTowards(point, cavity.border, way);
     if (dent < 0)
     {
-      return way == Way::Any && this->approach(cavity_.cells) ? Outcome::Prepared
-                                                              : Outcome::Refused;
+      return way == Way::Any && this->approach(cavity.cells) ? Outcome::Prepared : Outcome::Refused;
     }
-    hole.triangles.push_back(this->triangleOf(dent));
+    hole.push_back(this->triangleOf(dent));
   }
-  for (const std::int32_t triangle : hole.triangles)
+  for (const std::int32_t replaced : hole)
   {
-    if (this->isNear(triangle, point, tolerance))
+    if (this->isNear(hand, replaced, point, tolerance))
     {
       return Outcome::Near;
     }
   }
-  if (dent < 0 && !this->keepsManifold(hole))
+  if (dent < 0 && !this->keepsManifold(hand))
   {
-    const bool any = way == Way::Any;
-    const bool prepared = this->prepare(point, tolerance, 1) ||
-      (any &&
-        (this->prepare(point, tolerance, 2) || this->prepare(point, tolerance, 3) ||
-          this->clear(cavity_.cells)));
-    return prepared ? Outcome::Prepared : Outcome::Refused;
+    return this->makeReady(hand, point, tolerance, way);
   }
-  change_.removed = hole.triangles;
-  this->fill(point, dent);
+  hand.change_.removed = hole;
+  this->fill(hand, point, dent);
   return Outcome::Placed;
+}
+
+Delaunay::Place DynamicSurface::locate(Hand& hand, const Vec3& point, std::int32_t triangle)
+{
+  for (const std::int32_t cell : { triangle >> 2, delaunay_.beyond(triangle) >> 2 })
+  {
+    if (delaunay_.holds(cell, point))
+    {
+      return { cell, -1 };
+    }
+  }
+  const std::int32_t start = triangle >> 2;
+  return hand.alone_ ? delaunay_.locate(point, start)
+                     : delaunay_.locate(hand.worker_, point, start);
+}
+
+// \returns whether the hand may fill it.
+bool DynamicSurface::findCavity(Hand& hand, const Vec3& point, const Delaunay::Place& where)
+{
+  if (hand.alone_)
+  {
+    delaunay_.findCavity(point, where, hand.cavity_);
+    return true;
+  }
+  return delaunay_.findCavity(hand.worker_, point, where, hand.cavity_) &&
+    delaunay_.hasCells(hand.worker_, hand.cavity_);
 }
 
 // The number of the triangle that is this half-facet or its opposite.
@@ -89,151 +108,166 @@ std::int32_t DynamicSurface::triangleOf(std::int32_t halfFacet) const
   return inside_[halfFacet >> 2] != 0 ? halfFacet : delaunay_.beyond(halfFacet);
 }
 
-DynamicSurface::Hole DynamicSurface::holeOf(const std::vector<std::int32_t>& cells)
+void DynamicSurface::findHole(Hand& hand) const
 {
-  Hole hole;
+  const std::vector<std::int32_t>& cells = hand.cavity_.cells;
+  hand.hole_.clear();
   for (const std::int32_t cell : cells)
   {
-    marks_[cell] = 1;
+    hand.marks_[cell] = 1;
   }
   for (const std::int32_t cell : cells)
   {
     for (std::int32_t facet = 4 * cell; inside_[cell] != 0 && facet < 4 * cell + 4; ++facet)
     {
       const std::int32_t beyond = delaunay_.beyond(facet) >> 2;
-      const Triangle corner = delaunay_.facet(facet);
-      if (marks_[beyond] == 0)
+      if (inside_[beyond] == 0 && hand.marks_[beyond] != 0)
       {
-        for (int k = 0; k < 3; ++k)
-        {
-          hole.edges.push_back({ corner[k], corner[(k + 1) % 3] });
-        }
-      }
-      else if (inside_[beyond] == 0)
-      {
-        hole.triangles.push_back(facet);
+        hand.hole_.push_back(facet);
       }
     }
   }
   for (const std::int32_t cell : cells)
   {
-    marks_[cell] = 0;
+    hand.marks_[cell] = 0;
   }
-  return hole;
 }
 
 // The new tetrahedra are inside where the old ones at their bases were, but for that at the dent.
-void DynamicSurface::fill(const Vec3& point, std::int32_t dent)
+void DynamicSurface::fill(Hand& hand, const Vec3& point, std::int32_t dent)
 {
-  change_.added.clear();
-  change_.renamed.clear();
-  std::vector<std::uint8_t> inside(cavity_.border.size());
+  Change& change = hand.change_;
+  Delaunay::Cavity& cavity = hand.cavity_;
+  change.added.clear();
+  change.renamed.clear();
+  std::vector<std::uint8_t>& inside = hand.inside_;
+  inside.resize(cavity.border.size());
   for (std::size_t k = 0; k < inside.size(); ++k)
   {
-    const std::int32_t facet = cavity_.border[k];
+    const std::int32_t facet = cavity.border[k];
     inside[k] = inside_[facet >> 2] ^ std::uint8_t(facet == dent);
     if (facet != dent && inside[k] != 0 && inside_[delaunay_.beyond(facet) >> 2] == 0)
     {
-      change_.renamed.emplace_back(facet, static_cast<std::int32_t>(k));
+      change.renamed.emplace_back(facet, static_cast<std::int32_t>(k));
     }
   }
-  this->remember(-1);
-  for (const std::int32_t cell : cavity_.cells)
+  const std::int32_t site =
+    hand.alone_ ? static_cast<std::int32_t>(this->sites().size()) : hand.nextSite_++;
+  remember(hand, -1, site);
+  History& history = hand.history_;
+  for (const std::int32_t cell : cavity.cells)
   {
-    replaced_.push_back({ cell, delaunay_.cell(cell) });
-    replacedInside_.push_back(inside_[cell]);
+    history.replaced.push_back({ cell, delaunay_.cell(cell) });
+    history.replacedInside.push_back(inside_[cell]);
     inside_[cell] = 0;
   }
-  delaunay_.fill(point, cavity_);
-  inside_.resize(delaunay_.cellCount(), 0);
-  marks_.resize(delaunay_.cellCount(), 0);
+  if (hand.alone_)
+  {
+    delaunay_.fill(point, cavity);
+    inside_.resize(delaunay_.cellCount(), 0);
+  }
+  else
+  {
+    delaunay_.fill(hand.worker_, site, point, cavity);
+  }
   for (std::size_t k = 0; k < inside.size(); ++k)
   {
-    inside_[cavity_.cells[k]] = inside[k];
+    inside_[cavity.cells[k]] = inside[k];
   }
-  for (auto& name : change_.renamed)
+  for (auto& name : change.renamed)
   {
-    name.second = cavity_.border[name.second];
+    name.second = cavity.border[name.second];
   }
-  renamed_.insert(renamed_.end(), change_.renamed.begin(), change_.renamed.end());
-  for (const std::int32_t cell : cavity_.cells)
+  history.renamed.insert(history.renamed.end(), change.renamed.begin(), change.renamed.end());
+  this->collectBases(cavity.cells, change.added);
+}
+
+// Triangles of the surface that have the vertex 0 of cells around it. They are on the cells' own
+// side.
+void DynamicSurface::collectBases(
+  const std::vector<std::int32_t>& star, std::vector<std::int32_t>& triangles) const
+{
+  for (const std::int32_t cell : star)
   {
     for (std::int32_t facet = 4 * cell + 1; inside_[cell] != 0 && facet < 4 * cell + 4; ++facet)
     {
       if (inside_[delaunay_.beyond(facet) >> 2] == 0)
       {
-        change_.added.push_back(facet);
+        triangles.push_back(facet);
       }
     }
   }
 }
 
-void DynamicSurface::remember(std::int32_t flipped)
+void DynamicSurface::remember(Hand& hand, std::int32_t flipped, std::int32_t site)
 {
-  steps_.push_back({ flipped, replaced_.size(), removed_.size(), renamed_.size() });
-  removed_.insert(removed_.end(), change_.removed.begin(), change_.removed.end());
+  History& history = hand.history_;
+  history.steps.push_back(
+    { flipped, site, history.replaced.size(), history.removed.size(), history.renamed.size() });
+  history.removed.insert(
+    history.removed.end(), hand.change_.removed.begin(), hand.change_.removed.end());
 }
 
-bool DynamicSurface::undo()
+void DynamicSurface::undo()
 {
-  const Step step = steps_.back();
-  steps_.pop_back();
+  const Step step = own_.history_.steps.back();
   if (step.flipped >= 0)
   {
-    this->flip(step.flipped);
+    this->flip(step.flipped, own_.change_);
   }
   else
   {
     this->takeBack(step);
   }
-  replaced_.resize(step.replaced);
-  replacedInside_.resize(step.replaced);
-  removed_.resize(step.removed);
-  renamed_.resize(step.renamed);
-  return step.flipped < 0;
+  own_.history_.forgetFrom(step);
 }
 
-// The cells around the last site have it as their vertex 0.
+void DynamicSurface::History::forgetFrom(const Step& step)
+{
+  steps.pop_back();
+  replaced.resize(step.replaced);
+  replacedInside.resize(step.replaced);
+  removed.resize(step.removed);
+  renamed.resize(step.renamed);
+}
+
+// The cells around the site have it as their vertex 0.
 void DynamicSurface::takeBack(const Step& step)
 {
-  change_.removed.clear();
-  change_.renamed.clear();
-  delaunay_.star(static_cast<std::int32_t>(this->sites().size()) - 1, cavity_.cells);
-  for (const std::int32_t cell : cavity_.cells)
-  {
-    for (std::int32_t facet = 4 * cell + 1; inside_[cell] != 0 && facet < 4 * cell + 4; ++facet)
-    {
-      if (inside_[delaunay_.beyond(facet) >> 2] == 0)
-      {
-        change_.removed.push_back(facet);
-      }
-    }
-  }
-  for (const std::int32_t cell : cavity_.cells)
+  Change& change = own_.change_;
+  const History& history = own_.history_;
+  std::vector<std::int32_t>& star = own_.cavity_.cells;
+  change.removed.clear();
+  change.renamed.clear();
+  delaunay_.star(step.site, star);
+  this->collectBases(star, change.removed);
+  for (const std::int32_t cell : star)
   {
     inside_[cell] = 0;
   }
-  delaunay_.takeBack(
-    cavity_.cells, replaced_.data() + step.replaced, replaced_.data() + replaced_.size());
-  for (std::size_t k = step.replaced; k < replaced_.size(); ++k)
+  const Delaunay::Replaced* replaced = history.replaced.data();
+  delaunay_.takeBack(step.site, star, replaced + step.replaced, replaced + history.replaced.size());
+  for (std::size_t k = step.replaced; k < history.replaced.size(); ++k)
   {
-    inside_[replaced_[k].number] = replacedInside_[k];
+    inside_[replaced[k].number] = history.replacedInside[k];
   }
-  change_.added.assign(removed_.begin() + std::ptrdiff_t(step.removed), removed_.end());
-  for (std::size_t k = step.renamed; k < renamed_.size(); ++k)
+  change.added.assign(
+    history.removed.begin() + std::ptrdiff_t(step.removed), history.removed.end());
+  for (std::size_t k = step.renamed; k < history.renamed.size(); ++k)
   {
-    change_.renamed.emplace_back(renamed_[k].second, renamed_[k].first);
+    change.renamed.emplace_back(history.renamed[k].second, history.renamed[k].first);
   }
 }
 
-bool DynamicSurface::isNear(std::int32_t triangle, const Vec3& point, double tolerance)
+bool DynamicSurface::isNear(
+  Hand& hand, std::int32_t triangle, const Vec3& point, double tolerance) const
 {
   const Triangle t = this->triangle(triangle);
   const std::vector<Vec3>& sites = this->sites();
-  nearTriangle_ = triangle;
-  nearDistance_ =
+  hand.nearTriangle_ = triangle;
+  hand.nearDistance_ =
     std::sqrt(nearestOnTriangle(point, sites[t[0]], sites[t[1]], sites[t[2]]).squaredDistance);
-  return nearDistance_ <= tolerance;
+  return hand.nearDistance_ <= tolerance;
 }
 
 std::vector<std::int32_t> DynamicSurface::surface() const
@@ -292,60 +326,67 @@ std::int32_t DynamicSurface::facetTowards(
   return best;
 }
 
-// Whether the hole's border is divided by one simple loop, and its part of the surface is a disc.
-bool DynamicSurface::keepsManifold(const Hole& hole) const
+// Whether the hole's triangles are a disc, bordered by one simple loop.
+bool DynamicSurface::keepsManifold(Hand& hand) const
 {
-  // Edges that facets on both sides have cancel; the others part inside from outside.
-  std::vector<std::uint64_t> edges(hole.edges.size()); // lower end, higher end, which is first
-  std::transform(hole.edges.begin(), hole.edges.end(), edges.begin(),
-    [](const Edge& edge)
-    {
-      const auto [low, high] = std::minmax({ edge.from + 1, edge.to + 1 }); // kInfinite is -1
-      return std::uint64_t(low) << 32 | std::uint64_t(high) << 1 |
-        std::uint64_t(edge.to < edge.from);
-    });
-  std::sort(edges.begin(), edges.end());
-  std::vector<Edge> loop;
-  for (std::size_t k = 0; k < edges.size(); ++k)
+  std::vector<Edge>& edges = hand.edges_;
+  std::vector<std::int32_t>& sites = hand.sites_;
+  edges.clear();
+  sites.clear();
+  for (const std::int32_t triangle : hand.hole_)
   {
-    if (k + 1 < edges.size() && edges[k] >> 1 == edges[k + 1] >> 1)
+    const Triangle t = this->triangle(triangle);
+    for (int k = 0; k < 3; ++k)
     {
-      ++k;
-      continue;
+      edges.push_back({ t[k], t[(k + 1) % 3] });
+      sites.push_back(t[k]);
     }
-    const auto low = static_cast<std::int32_t>(edges[k] >> 32) - 1;
-    const auto high = static_cast<std::int32_t>(edges[k] >> 1 & 0x7fffffffu) - 1;
-    loop.push_back((edges[k] & 1) != 0 ? Edge{ high, low } : Edge{ low, high });
   }
-  // One loop: each of its vertices is left once, and who walks along it is back after all edges.
-  std::sort(loop.begin(), loop.end(), [](const Edge& a, const Edge& b) { return a.from < b.from; });
+  std::sort(sites.begin(), sites.end());
+  sites.erase(std::unique(sites.begin(), sites.end()), sites.end());
+  std::sort(
+    edges.begin(), edges.end(), [](const Edge& a, const Edge& b) { return a.key() < b.key(); });
+  // Those that two triangles share cancel.
+  std::size_t loop = 0;
+  for (std::size_t k = 0; k < edges.size();)
+  {
+    const std::size_t first = k;
+    while (++k < edges.size() && edges[k].key() == edges[first].key())
+    {
+    }
+    if (k > first + 2)
+    {
+      return false;
+    }
+    if (k == first + 1)
+    {
+      edges[loop++] = edges[first];
+    }
+  }
+  edges.resize(loop);
+  // Euler's formula for a disc whose border is the loop.
+  return hand.hole_.size() + 2 + loop == 2 * sites.size() && isLoop(edges);
+}
+
+// Whether each vertex is left once, and who walks along the edges is back after all.
+bool DynamicSurface::isLoop(std::vector<Edge>& edges)
+{
+  std::sort(
+    edges.begin(), edges.end(), [](const Edge& a, const Edge& b) { return a.from < b.from; });
   const auto sameStart = [](const Edge& a, const Edge& b) { return a.from == b.from; };
-  if (loop.size() < 3 || std::adjacent_find(loop.begin(), loop.end(), sameStart) != loop.end())
+  if (edges.size() < 3 || std::adjacent_find(edges.begin(), edges.end(), sameStart) != edges.end())
   {
     return false;
   }
   std::size_t steps = 0;
-  auto at = loop.begin();
+  auto at = edges.begin();
   do
   {
-    at = std::lower_bound(loop.begin(), loop.end(), at->to,
+    at = std::lower_bound(edges.begin(), edges.end(), at->to,
       [](const Edge& edge, std::int32_t site) { return edge.from < site; });
     ++steps;
-  } while (at != loop.end() && at != loop.begin() && steps < loop.size());
-  if (at != loop.begin() || steps != loop.size())
-  {
-    return false;
-  }
-  // Euler's formula for a disc whose border is the loop.
-  std::vector<std::int32_t> sites;
-  for (const std::int32_t triangle : hole.triangles)
-  {
-    const Triangle t = this->triangle(triangle);
-    sites.insert(sites.end(), t.begin(), t.end());
-  }
-  std::sort(sites.begin(), sites.end());
-  sites.erase(std::unique(sites.begin(), sites.end()), sites.end());
-  return hole.triangles.size() + 2 + loop.size() == 2 * sites.size();
+  } while (at != edges.end() && at != edges.begin() && steps < edges.size());
+  return at == edges.begin() && steps == edges.size();
 }
 
 } // namespace hybridtree

@@ -9,31 +9,42 @@
 namespace hybridtree
 {
 
+// Moves tetrahedra so that a point can be placed that now would not leave the surface a manifold.
+DynamicSurface::Outcome DynamicSurface::makeReady(
+  Hand& hand, const Vec3& point, double tolerance, Way way)
+{
+  const bool any = way == Way::Any;
+  const bool ready = this->prepare(hand, point, tolerance, 1) ||
+    (any &&
+      (this->prepare(hand, point, tolerance, 2) || this->prepare(hand, point, tolerance, 3) ||
+        this->clear(hand.cavity_.cells)));
+  return ready ? Outcome::Prepared : Outcome::Refused;
+}
+
 // Moves one tetrahedron that the last point would replace to the other side of the surface, if
 // then, or after so many moves in all, the point can be placed.
-bool DynamicSurface::prepare(const Vec3& point, double tolerance, int moves)
+bool DynamicSurface::prepare(Hand& hand, const Vec3& point, double tolerance, int moves)
 {
-  const std::int32_t cell = this->firstMove(point, tolerance, moves);
+  const std::int32_t cell = this->firstMove(hand, point, tolerance, moves);
   if (cell >= 0)
   {
-    this->flip(cell);
-    this->remember(cell);
+    this->move(hand, cell);
   }
   return cell >= 0;
 }
 
 // \returns a cell; -1: there is none.
-std::int32_t DynamicSurface::firstMove(const Vec3& point, double tolerance, int moves)
+std::int32_t DynamicSurface::firstMove(Hand& hand, const Vec3& point, double tolerance, int moves)
 {
-  for (const std::int32_t cell : cavity_.cells)
+  for (const std::int32_t cell : hand.cavity_.cells)
   {
-    if (!this->mayFlip(cell))
+    if (!this->mayFlip(hand, cell))
     {
       continue;
     }
     inside_[cell] ^= 1;
-    const bool prepared = moves > 1 ? this->firstMove(point, tolerance, moves - 1) >= 0
-                                    : this->mayPlace(point, tolerance);
+    const bool prepared = moves > 1 ? this->firstMove(hand, point, tolerance, moves - 1) >= 0
+                                    : this->mayPlace(hand, point, tolerance);
     inside_[cell] ^= 1;
     if (prepared)
     {
@@ -44,12 +55,12 @@ std::int32_t DynamicSurface::firstMove(const Vec3& point, double tolerance, int 
 }
 
 // What is prepared is placed, else two points could push the surface to and fro for ever.
-bool DynamicSurface::mayPlace(const Vec3& point, double tolerance)
+bool DynamicSurface::mayPlace(Hand& hand, const Vec3& point, double tolerance)
 {
-  const Hole hole = this->holeOf(cavity_.cells);
-  const bool near = std::any_of(hole.triangles.begin(), hole.triangles.end(),
-    [&](std::int32_t triangle) { return this->isNear(triangle, point, tolerance); });
-  return !hole.triangles.empty() && !near && this->keepsManifold(hole);
+  this->findHole(hand);
+  const bool near = std::any_of(hand.hole_.begin(), hand.hole_.end(),
+    [&](std::int32_t triangle) { return this->isNear(hand, triangle, point, tolerance); });
+  return !hand.hole_.empty() && !near && this->keepsManifold(hand);
 }
 
 // Moves the nearest tetrahedron that may to the other side of the surface, near by steps from cells
@@ -60,36 +71,35 @@ bool DynamicSurface::approach(const std::vector<std::int32_t>& from)
   std::vector<std::int32_t> cells = from;
   for (const std::int32_t cell : from)
   {
-    marks_[cell] = 1;
+    own_.marks_[cell] = 1;
   }
   std::int32_t found = -1;
   for (std::size_t k = 0; found < 0 && k < cells.size() && k < kMostCells; ++k)
   {
     const int open = this->openFacets(cells[k]);
-    if ((open == 1 || open == 2) && this->mayFlip(cells[k]))
+    if ((open == 1 || open == 2) && this->mayFlip(own_, cells[k]))
     {
       found = cells[k];
     }
     for (std::int32_t facet = 4 * cells[k]; facet < 4 * cells[k] + 4; ++facet)
     {
       const std::int32_t beyond = delaunay_.beyond(facet) >> 2;
-      if (marks_[beyond] == 0 && inside_[beyond] == inside_[cells[k]])
+      if (own_.marks_[beyond] == 0 && inside_[beyond] == inside_[cells[k]])
       {
-        marks_[beyond] = 1;
+        own_.marks_[beyond] = 1;
         cells.push_back(beyond);
       }
     }
   }
   for (const std::int32_t cell : cells)
   {
-    marks_[cell] = 0;
+    own_.marks_[cell] = 0;
   }
   if (found < 0)
   {
     return false;
   }
-  this->flip(found);
-  this->remember(found);
+  this->move(own_, found);
   return true;
 }
 
@@ -102,18 +112,18 @@ bool DynamicSurface::clear(const std::vector<std::int32_t>& cells)
   const std::uint8_t fewer = 2 * inside <= cells.size() ? 1 : 0;
   // Else two moves could undo each other for ever.
   constexpr std::size_t kLately = 32; // steps
-  const auto lately = steps_.end() - static_cast<std::ptrdiff_t>(std::min(kLately, steps_.size()));
+  const std::vector<Step>& steps = own_.history_.steps;
+  const auto lately = steps.end() - static_cast<std::ptrdiff_t>(std::min(kLately, steps.size()));
   const auto movedLately = [&](std::int32_t cell)
   {
-    return std::any_of(
-      lately, steps_.end(), [&](const Step& step) { return step.flipped == cell; });
+    return std::any_of(lately, steps.end(), [&](const Step& step) { return step.flipped == cell; });
   };
   std::int32_t best = -1;
   int bestRank = 3;
   for (const std::int32_t cell : cells)
   {
     const int rank = this->openFacets(cell) == 3 ? 1 : inside_[cell] == fewer ? 0 : 2;
-    if (rank < bestRank && !movedLately(cell) && this->mayFlip(cell))
+    if (rank < bestRank && !movedLately(cell) && this->mayFlip(own_, cell))
     {
       best = cell;
       bestRank = rank;
@@ -123,8 +133,7 @@ bool DynamicSurface::clear(const std::vector<std::int32_t>& cells)
   {
     return false;
   }
-  this->flip(best);
-  this->remember(best);
+  this->move(own_, best);
   return true;
 }
 
@@ -139,7 +148,7 @@ int DynamicSurface::openFacets(std::int32_t cell) const
 }
 
 // Whether the surface stays a manifold of the same genus. The same moves as the flow's (Front.cpp).
-bool DynamicSurface::mayFlip(std::int32_t cell)
+bool DynamicSurface::mayFlip(Hand& hand, std::int32_t cell) const
 {
   if (!delaunay_.finite(cell))
   {
@@ -154,29 +163,76 @@ bool DynamicSurface::mayFlip(std::int32_t cell)
       open[openCount++] = facet;
     }
   }
-  const auto& v = delaunay_.cell(cell).vertices;
-  return openCount == 3 || (openCount == 1 && !this->onSurface(v[open[0]], v[open[0]])) ||
-    (openCount == 2 && !this->onSurface(v[open[0]], v[open[1]]));
+  return openCount == 3 || (openCount == 1 && !this->vertexOnSurface(hand, cell, open[0])) ||
+    (openCount == 2 && !this->edgeOnSurface(cell, open[0], open[1]));
 }
 
-// Whether a vertex, or an edge between two, is part of the surface.
-bool DynamicSurface::onSurface(std::int32_t site, std::int32_t other)
+// Whether there are cells on both sides around a vertex of one.
+bool DynamicSurface::vertexOnSurface(Hand& hand, std::int32_t cell, int vertex) const
 {
-  delaunay_.star(site, star_);
-  std::array<bool, 2> seen{};
-  for (const std::int32_t cell : star_)
+  const std::int32_t site = delaunay_.cell(cell).vertices[vertex];
+  constexpr std::uint8_t kSeen = 2; // 1 may be in use
+  std::vector<std::int32_t>& star = hand.star_;
+  bool all = true;
+  star.assign(1, cell);
+  hand.marks_[cell] |= kSeen;
+  for (std::size_t k = 0; all && k < star.size(); ++k)
   {
-    const auto& v = delaunay_.cell(cell).vertices;
-    if (std::find(v.begin(), v.end(), other) != v.end())
+    const Delaunay::Cell& at = delaunay_.cell(star[k]);
+    for (int facet = 0; facet < 4; ++facet)
     {
-      seen[inside_[cell] != 0 ? 1 : 0] = true;
+      const std::int32_t beyond = at.beyond[facet] >> 2;
+      if (at.vertices[facet] != site && (hand.marks_[beyond] & kSeen) == 0)
+      {
+        hand.marks_[beyond] |= kSeen;
+        star.push_back(beyond);
+        all = all && inside_[beyond] == inside_[cell];
+      }
     }
   }
-  return seen[0] && seen[1];
+  for (const std::int32_t seen : star)
+  {
+    hand.marks_[seen] ^= kSeen;
+  }
+  return !all;
+}
+
+// Whether there are cells on both sides around an edge of one.
+bool DynamicSurface::edgeOnSurface(std::int32_t cell, int from, int to) const
+{
+  const std::array<std::int32_t, 2> ends{ delaunay_.cell(cell).vertices[from],
+    delaunay_.cell(cell).vertices[to] };
+  int leave = 0;
+  while (leave == from || leave == to)
+  {
+    ++leave;
+  }
+  std::int32_t at = cell;
+  do
+  {
+    const std::int32_t next = delaunay_.beyond(4 * at + leave);
+    at = next >> 2;
+    if (inside_[at] != inside_[cell])
+    {
+      return true;
+    }
+    // Of the four facets two are around the edge: go on through the other of them.
+    const auto& v = delaunay_.cell(at).vertices;
+    const auto indexOf = [&](std::int32_t site)
+    { return static_cast<int>(std::find(v.begin(), v.end(), site) - v.begin()); };
+    leave = 6 - indexOf(ends[0]) - indexOf(ends[1]) - (next & 3);
+  } while (at != cell);
+  return false;
+}
+
+void DynamicSurface::move(Hand& hand, std::int32_t cell)
+{
+  this->flip(cell, hand.change_);
+  remember(hand, cell, -1);
 }
 
 // Moves a tetrahedron to the other side of the surface.
-void DynamicSurface::flip(std::int32_t cell)
+void DynamicSurface::flip(std::int32_t cell, Change& change)
 {
   const auto facets = [&](std::vector<std::int32_t>& triangles)
   {
@@ -189,16 +245,16 @@ void DynamicSurface::flip(std::int32_t cell)
       }
     }
   };
-  facets(change_.removed);
+  facets(change.removed);
   inside_[cell] ^= 1;
-  facets(change_.added);
-  change_.renamed.clear();
+  facets(change.added);
+  change.renamed.clear();
 }
 
-// One of those around a site on the surface. \pre cavity_.cells is the cells around it.
+// One of those around a site on the surface. \pre own_.cavity_.cells is the cells around it.
 std::int32_t DynamicSurface::triangleAt(std::int32_t site) const
 {
-  for (const std::int32_t cell : cavity_.cells)
+  for (const std::int32_t cell : own_.cavity_.cells)
   {
     for (std::int32_t facet = 4 * cell; facet < 4 * cell + 4; ++facet)
     {
@@ -215,16 +271,16 @@ std::int32_t DynamicSurface::triangleAt(std::int32_t site) const
 // Lets the surface step on to a site that it has passed by, or not come to.
 DynamicSurface::Outcome DynamicSurface::surfaceAt(std::int32_t site, double tolerance, Way way)
 {
-  std::vector<std::int32_t>& star = cavity_.cells;
-  std::vector<std::int32_t>& border = cavity_.border;
+  std::vector<std::int32_t>& star = own_.cavity_.cells;
+  std::vector<std::int32_t>& border = own_.cavity_.border;
   delaunay_.star(site, star);
   border.clear();
   for (const std::int32_t cell : star)
   {
     if (inside_[cell] != inside_[star[0]]) // it is on the surface
     {
-      nearTriangle_ = this->triangleAt(site);
-      nearDistance_ = 0.0;
+      own_.nearTriangle_ = this->triangleAt(site);
+      own_.nearDistance_ = 0.0;
       return Outcome::Coincides;
     }
     const auto& v = delaunay_.cell(cell).vertices;
@@ -237,12 +293,11 @@ DynamicSurface::Outcome DynamicSurface::surfaceAt(std::int32_t site, double tole
   {
     return way == Way::Any && this->approach(star) ? Outcome::Prepared : Outcome::Refused;
   }
-  if (this->isNear(this->triangleOf(facet), point, tolerance))
+  if (this->isNear(own_, this->triangleOf(facet), point, tolerance))
   {
     return Outcome::Near;
   }
-  this->flip(facet >> 2);
-  this->remember(facet >> 2);
+  this->move(own_, facet >> 2);
   return Outcome::Surfaced;
 }
 

@@ -51,13 +51,15 @@ Tetrahedralization::Tetrahedralization(const Delaunay& delaunay, const Progress&
   this->copy(delaunay, progress);
 }
 
-// Sorts by counting. \returns per cell of the Delaunay tetrahedralization its number here.
-std::vector<std::int32_t> Tetrahedralization::number(
-  const Delaunay& delaunay, const Progress& progress)
+// By counting. \returns per cell its number in the Delaunay tetrahedralization.
+// \param number the other way round.
+RawVector<std::int32_t> Tetrahedralization::sort(
+  const Delaunay& delaunay, std::vector<std::int32_t>& number, const Progress& progress)
 {
   const auto count = static_cast<std::size_t>(delaunay.cellCount());
   const auto pointCount = static_cast<std::int32_t>(points_->size());
-  std::vector<std::int32_t> lowest(count); // vertex; infinite cells after all finite ones
+  std::vector<std::int32_t>& lowest = number; // vertex; infinite cells after all finite ones
+  lowest.resize(count);
   parallelFor(count, kGrain,
     [&](std::size_t begin, std::size_t end)
     {
@@ -82,31 +84,32 @@ std::vector<std::int32_t> Tetrahedralization::number(
   next[1] = 0;
   std::partial_sum(next.begin() + 1, next.end(), next.begin() + 1);
   finiteCells_ = next[pointCount + 1];
-  source_.resize(next.back());
+  RawVector<std::int32_t> source(next.back());
   for (std::size_t k = 0; k < count; ++k)
   {
     breath();
-    if (std::int32_t& number = lowest[k]; number >= 0)
+    if (number[k] >= 0)
     {
-      number = next[number + 1]++;
-      source_[number] = static_cast<std::int32_t>(k);
+      number[k] = next[number[k] + 1]++;
+      source[number[k]] = static_cast<std::int32_t>(k);
     }
   }
-  return lowest;
+  return source;
 }
 
 void Tetrahedralization::copy(const Delaunay& delaunay, const Progress& progress)
 {
   delaunay.checkVolume();
-  const std::vector<std::int32_t> number = this->number(delaunay, progress);
-  cells_.resize(source_.size());
-  parallelFor(source_.size(), kGrain,
+  std::vector<std::int32_t> number;
+  const RawVector<std::int32_t> source = this->sort(delaunay, number, progress);
+  cells_.resize(source.size());
+  parallelFor(source.size(), kGrain,
     [&](std::size_t begin, std::size_t end)
     {
       progress.check();
       for (std::size_t k = begin; k < end; ++k)
       {
-        const Delaunay::Cell& cell = delaunay.cell(source_[k]);
+        const Delaunay::Cell& cell = delaunay.cell(source[k]);
         cells_[k].vertices = cell.vertices;
         for (int facet = 0; facet < 4; ++facet)
         {

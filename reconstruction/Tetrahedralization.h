@@ -39,11 +39,14 @@ public:
   std::int32_t finiteCellCount() const { return finiteCells_; }
   bool finite(std::int32_t cell) const { return cell < finiteCells_; }
   const Cell& cell(std::int32_t cell) const { return cells_[cell].vertices; }
-  std::int32_t neighbor(std::int32_t cell, int facet) const { return cells_[cell].beyond[facet] >> 2; }
+  std::int32_t neighbor(std::int32_t cell, int facet) const
+  {
+    return cells_[cell].beyond[facet] >> 2;
+  }
   /// The facet of neighbor(cell, facet) that is the same triangle.
   int mirror(std::int32_t cell, int facet) const { return cells_[cell].beyond[facet] & 3; }
-  /// The cell of the Delaunay tetrahedralization that a cell is a copy of.
-  std::int32_t source(std::int32_t cell) const { return source_[cell]; }
+  /// All cells, as Delaunay::renumber() takes them.
+  const RawVector<Delaunay::Cell>& cells() const { return cells_; }
   /// For loops that know which cells they come to: reads one ahead.
   void prefetch(std::int32_t cell) const
   {
@@ -84,13 +87,13 @@ public:
   Star star(std::int32_t vertex) const;
 
 private:
-  std::vector<std::int32_t> number(const Delaunay& delaunay, const Progress& progress);
+  RawVector<std::int32_t> sort(
+    const Delaunay& delaunay, std::vector<std::int32_t>& number, const Progress& progress);
   void copy(const Delaunay& delaunay, const Progress& progress);
   void collectStars(const Progress& progress);
 
   const std::vector<Vec3>* points_;
   RawVector<Delaunay::Cell> cells_; // vertices and neighbours in one line of the cache
-  RawVector<std::int32_t> source_;
   std::int32_t finiteCells_ = 0;
   std::vector<std::int32_t> starOffset_;
   RawVector<std::int32_t> starCells_;

@@ -70,10 +70,16 @@ void TrianglePoints::clear()
   refused_.clear();
 }
 
-void TrianglePoints::refuse(std::int32_t point)
+void TrianglePoints::refuse(std::int32_t point, Scratch& scratch)
 {
   states_[point].refused = true;
-  refused_.push_back(point);
+  scratch.refused.push_back(point);
+}
+
+void TrianglePoints::gather(Scratch& scratch)
+{
+  refused_.insert(refused_.end(), scratch.refused.begin(), scratch.refused.end());
+  scratch.refused.clear();
 }
 
 std::vector<std::int32_t> TrianglePoints::forgive()
@@ -130,27 +136,35 @@ std::int32_t TrianglePoints::takeList(std::int32_t triangle)
                                                             : -1;
 }
 
-void TrianglePoints::follow(const DynamicSurface& surface)
+void TrianglePoints::reserve(const DynamicSurface& surface)
 {
-  const DynamicSurface::Change& change = surface.lastChange();
-  pool_.clear();
+  if (const auto end = static_cast<std::size_t>(surface.endOfNumbers()); first_.size() < end)
+  {
+    first_.resize(end, -1);
+  }
+}
+
+void TrianglePoints::follow(
+  const DynamicSurface& surface, const DynamicSurface::Change& change, Scratch& scratch)
+{
+  scratch.points.clear();
   for (const std::int32_t triangle : change.removed)
   {
     for (std::int32_t at = this->takeList(triangle); at >= 0; at = states_[at].next)
     {
-      pool_.push_back(at);
+      scratch.points.push_back(at);
     }
   }
   // New numbers may be old ones of others: all lists are taken before any is put.
-  std::vector<std::pair<std::int32_t, std::int32_t>> lists; // first point, triangle
+  scratch.lists.clear();
   for (const auto& [from, to] : change.renamed)
   {
     if (const std::int32_t list = this->takeList(from); list >= 0)
     {
-      lists.emplace_back(list, to);
+      scratch.lists.emplace_back(list, to);
     }
   }
-  for (const auto& [list, triangle] : lists)
+  for (const auto& [list, triangle] : scratch.lists)
   {
     for (std::int32_t at = list; at >= 0;)
     {
@@ -161,20 +175,20 @@ void TrianglePoints::follow(const DynamicSurface& surface)
     }
   }
   const std::vector<Vec3>& sites = surface.sites();
-  news_.clear();
+  scratch.news.clear();
   for (const std::int32_t triangle : change.added)
   {
     const Triangle t = surface.triangle(triangle);
     Box3 box(sites[t[0]]);
     box.extend(sites[t[1]]).extend(sites[t[2]]);
-    news_.push_back({ sites[t[0]], sites[t[1]], sites[t[2]], box, triangle });
+    scratch.news.push_back({ sites[t[0]], sites[t[1]], sites[t[2]], box, triangle });
   }
-  for (const std::int32_t point : pool_)
+  for (const std::int32_t point : scratch.points)
   {
     const Vec3& p = (*points_)[point];
     double least = std::numeric_limits<double>::infinity();
-    std::int32_t nearest = news_.front().number;
-    for (const New& triangle : news_)
+    std::int32_t nearest = scratch.news.front().number;
+    for (const Scratch::New& triangle : scratch.news)
     {
       if (triangle.box.squaredExteriorDistance(p) > least) // most are farther
       {

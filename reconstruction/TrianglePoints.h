@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace hybridtree
@@ -22,6 +23,22 @@ namespace hybridtree
 class TrianglePoints
 {
 public:
+  /// What it takes to follow(), for whom does it often.
+  class Scratch
+  {
+    friend class TrianglePoints;
+    struct New
+    {
+      Vec3 a, b, c;
+      Box3 box;
+      std::int32_t number;
+    };
+    std::vector<std::int32_t> points;
+    std::vector<std::pair<std::int32_t, std::int32_t>> lists; // first point, triangle
+    std::vector<New> news;
+    std::vector<std::int32_t> refused;
+  };
+
   /// \param points must stay alive; may be appended to.
   explicit TrianglePoints(const std::vector<Vec3>& points) : points_(&points) {}
 
@@ -30,7 +47,9 @@ public:
   std::int32_t triangle(std::int32_t point) const { return states_[point].triangle; }
   /// Whether the surface would not take the point up, until its triangle changes.
   bool refused(std::int32_t point) const { return states_[point].refused; }
-  void refuse(std::int32_t point);
+  void refuse(std::int32_t point, Scratch& scratch);
+  /// Notes what was refused with this scratch.
+  void gather(Scratch& scratch);
   /// \returns all that were refused since, some of them no longer.
   std::vector<std::int32_t> forgive();
 
@@ -42,8 +61,12 @@ public:
   /// Parts all points from their triangles, which are no more.
   void clear();
 
-  /// After a step of the surface.
-  void follow(const DynamicSurface& surface);
+  /// After a step of the surface. Where several hands place points at a time, each may call it, and
+  /// move(), for the triangles that it may replace. \pre reserve().
+  void follow(
+    const DynamicSurface& surface, const DynamicSurface::Change& change, Scratch& scratch);
+  /// Makes room for all triangles that there may be.
+  void reserve(const DynamicSurface& surface);
   void move(std::int32_t point, std::int32_t triangle, double distance);
   void remove(std::int32_t point);
 
@@ -67,12 +90,6 @@ private:
     std::int32_t next = -1; // of the points of its triangle
     bool refused = false;
   };
-  struct New
-  {
-    Vec3 a, b, c;
-    Box3 box;
-    std::int32_t number;
-  };
   void put(std::int32_t point, std::int32_t triangle, double distance);
   std::int32_t takeList(std::int32_t triangle);
 
@@ -80,8 +97,6 @@ private:
   std::vector<State> states_;       // per point
   std::vector<std::int32_t> first_; // per number of a triangle
   std::vector<std::int32_t> refused_;
-  std::vector<std::int32_t> pool_; // scratch
-  std::vector<New> news_;          // scratch
 };
 
 } // namespace hybridtree

@@ -209,12 +209,12 @@ TEST(Delaunay, GrowsPointByPoint)
   Delaunay::Cavity cavity;
   for (std::size_t k = 100; k < points.size(); ++k)
   {
-    const Delaunay::Place place = grown.locate(points[k], static_cast<std::int32_t>(k % 50));
+    const Delaunay::Place place = grown.locate(points[k], grown.cellOf(static_cast<std::int32_t>(k % 50)));
     ASSERT_EQ(place.vertex, -1);
     grown.findCavity(points[k], place, cavity);
     const std::int32_t vertex = grown.fill(points[k], cavity);
     ASSERT_EQ(grown.points()[vertex], points[k]);
-    ASSERT_EQ(grown.locate(points[k], 0).vertex, vertex);
+    ASSERT_EQ(grown.locate(points[k], grown.cellOf(0)).vertex, vertex);
     std::vector<std::int32_t> star;
     grown.star(vertex, star);
     std::sort(star.begin(), star.end());

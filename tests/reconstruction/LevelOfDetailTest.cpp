@@ -4,6 +4,7 @@
 #include "reconstruction/PointOctree.h"
 
 #include "core/base/Error.h"
+#include "core/base/Parallel.h"
 #include "core/mesh/MeshChecks.h"
 #include "tests/reconstruction/MeshDistances.h"
 #include "tests/reconstruction/Samples.h"
@@ -263,6 +264,35 @@ TEST(DynamicReconstruction, ComesBackToWhereItWas)
   const auto more = idsOf(dynamic.update(LevelOfDetail{ 0.0, 5000 }));
   EXPECT_GT(more.size(), before.size());
   EXPECT_EQ(idsOf(dynamic.update(LevelOfDetail{ 0.0, 3000 })), before);
+}
+
+// So many points in a step that several threads place them, to and fro, and from the hull again.
+TEST(DynamicReconstruction, IsTheSameForAnyNumberOfThreads)
+{
+  const std::vector<Vec3> points = randomTorus(1.0, 0.4, 20000, 16);
+  std::vector<std::int32_t> gone(300);
+  std::iota(gone.begin(), gone.end(), 0);
+  DynamicReconstruction parallel(points);
+  DynamicReconstruction serial(points);
+  for (const LevelOfDetail& detail :
+    { LevelOfDetail{ 0.0, 4000 }, LevelOfDetail{ 0.0, 9500 }, LevelOfDetail{ 0.0, 4500 },
+      LevelOfDetail{ 0.0, 9800 }, LevelOfDetail{ 0.002, 0 }, LevelOfDetail{ 0.0005, 0 } })
+  {
+    SCOPED_TRACE("vertices " + std::to_string(detail.vertices));
+    setThreadCount(2);
+    const ReconstructedSurface one = parallel.update(detail);
+    setThreadCount(1);
+    const ReconstructedSurface two = serial.update(detail);
+    setThreadCount(0);
+    expectSound(one, points, 1);
+    EXPECT_EQ(one.mesh.triangles, two.mesh.triangles);
+    EXPECT_EQ(one.pointIds, two.pointIds);
+    if (detail.vertices == 9500)
+    {
+      parallel.remove(gone);
+      serial.remove(gone);
+    }
+  }
 }
 
 TEST(DynamicReconstruction, RefinesInARegionOnly)
