@@ -3,6 +3,7 @@
 
 #include "core/base/Scratch.h"
 #include "core/convolution/MixBlends.h"
+#include "core/convolution/OwnBlend.h"
 
 #include <algorithm>
 #include <limits>
@@ -191,9 +192,9 @@ private:
   std::vector<char> mayBeFar_;  // per unit: from another that reaches any
 };
 
-// As mixBlends(), of some points.
+// As mixBlends() or ownBlend(), of some points.
 void mixSome(const PiecesNear& pieces, const std::vector<std::size_t>& some, PointBatch points,
-  double* value, const VectorBatch* gradient)
+  double* value, const VectorBatch* gradient, std::int32_t own)
 {
   ScratchVectors at(some.size());
   ScratchArray mixed(some.size());
@@ -208,7 +209,14 @@ void mixSome(const PiecesNear& pieces, const std::vector<std::size_t>& some, Poi
       slope.set(k, (*gradient)[some[k]]);
     }
   }
-  mixBlends(pieces, at.points(), mixed.data(), gradient ? &slope : nullptr);
+  if (own == kAnyGroup)
+  {
+    mixBlends(pieces, at.points(), mixed.data(), gradient ? &slope : nullptr);
+  }
+  else
+  {
+    ownBlend(pieces, own, at.points(), mixed.data(), gradient ? &slope : nullptr);
+  }
   for (std::size_t k = 0; k < some.size(); ++k)
   {
     value[some[k]] = mixed[k];
@@ -220,7 +228,7 @@ void mixSome(const PiecesNear& pieces, const std::vector<std::size_t>& some, Poi
 }
 
 void sumPart(const BlendGroups& groups, const BlendSelection& selection, PointBatch points,
-  double* value, const VectorBatch* gradient)
+  double* value, const VectorBatch* gradient, std::int32_t own)
 {
   UnitSums sums(groups, selection, points);
   ScratchArray isOpen(points.size);
@@ -249,14 +257,14 @@ void sumPart(const BlendGroups& groups, const BlendSelection& selection, PointBa
     open.end());
   if (!open.empty())
   {
-    mixSome(pieces, open, points, value, gradient);
+    mixSome(pieces, open, points, value, gradient, own);
   }
 }
 
 } // namespace
 
 void sumBlends(const BlendGroups& groups, const BlendSelection& selection, PointBatch points,
-  double* value, const VectorBatch* gradient)
+  double* value, const VectorBatch* gradient, std::int32_t own)
 {
   if (selection.units.empty())
   {
@@ -267,7 +275,7 @@ void sumBlends(const BlendGroups& groups, const BlendSelection& selection, Point
   {
     const PointBatch part = points.slice(begin, std::min(kPart, points.size - begin));
     const VectorBatch slopes = gradient ? gradient->slice(begin) : VectorBatch{};
-    sumPart(groups, selection, part, value + begin, gradient ? &slopes : nullptr);
+    sumPart(groups, selection, part, value + begin, gradient ? &slopes : nullptr, own);
   }
 }
 

@@ -7,6 +7,8 @@
 namespace hybridtree
 {
 
+inline constexpr std::int32_t kAnyGroup = -1;
+
 /// The field under blending control (BlendedField.h), before the fading of the Cauchy kernel.
 ///
 /// With the compact kernel each unit is integrated once, as the plain sum does it. Where
@@ -15,7 +17,9 @@ namespace hybridtree
 ///
 /// Overwrites `value`, and `gradient` unless null.
 /// \pre selection.isControlled, and the selection is that of a box that holds the points.
+/// \param own a group that the points belong to, whose sum alone is taken at the other points
+/// (OwnBlend.h); kAnyGroup for the field.
 void sumBlends(const BlendGroups& groups, const BlendSelection& selection, PointBatch points,
-  double* value, const VectorBatch* gradient);
+  double* value, const VectorBatch* gradient, std::int32_t own = kAnyGroup);
 
 } // namespace hybridtree

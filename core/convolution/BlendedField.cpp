@@ -4,6 +4,7 @@
 #include "core/base/Scratch.h"
 #include "core/convolution/BlendSelector.h"
 #include "core/convolution/BlendSums.h"
+#include "core/convolution/OwnBlend.h"
 
 #include <algorithm>
 #include <array>
@@ -174,10 +175,55 @@ void BlendedField::sumControlled(const BlendSelection& selection, PointBatch poi
   }
 }
 
-void BlendedField::ownSum(
-  std::int32_t group, PointBatch points, double* value, const VectorBatch* gradient) const
+void BlendedField::ownBlend(std::int32_t group, const BlendSelection* selection, PointBatch points,
+  double* value, const VectorBatch* gradient) const
 {
-  paper_->evaluate(group, this->kernel(), points, value, gradient);
+  const BlendGroups groups = this->groups();
+  if (!groups.isLocal())
+  {
+    std::vector<std::int32_t> members = places_.neighbours[static_cast<std::size_t>(group)];
+    members.push_back(group);
+    hybridtree::ownBlend(PiecesNear(groups, members), group, points, value, gradient);
+  }
+  else if (!selection)
+  {
+    Box3 box;
+    for (std::size_t k = 0; k < points.size; ++k)
+    {
+      box.extend(points[k]);
+    }
+    hybridtree::ownBlend(PiecesNear(groups, box), group, points, value, gradient);
+  }
+  else if (selection->isControlled)
+  {
+    sumBlends(groups, *selection, points, value, gradient, group);
+  }
+  else
+  {
+    std::fill_n(value, points.size, 0.0);
+    if (gradient)
+    {
+      clear(points.size, value, *gradient);
+      whole_.addFieldAndGradient(selection->all, points, value, *gradient);
+    }
+    else
+    {
+      whole_.addField(selection->all, points, value);
+    }
+  }
+}
+
+void BlendedField::ownSum(std::int32_t group, const BlendSelection* selection, PointBatch points,
+  double* value, const VectorBatch* gradient) const
+{
+  if (paper_)
+  {
+    paper_->evaluate(group, this->kernel(), points, value, gradient);
+  }
+  else
+  {
+    this->ownBlend(group, selection, points, value, gradient);
+  }
   if (this->kernel().kind != KernelKind::Cauchy)
   {
     return;

@@ -50,9 +50,11 @@ public:
   ///@}
 
   /// What G_i of one group alone would make of the field, for points that are known to belong to
-  /// it (PaperSums.h). Overwrites `value`, and `gradient` unless null. \pre BlendingKind::Paper.
-  void ownSum(
-    std::int32_t group, PointBatch points, double* value, const VectorBatch* gradient) const;
+  /// it (PaperSums.h, OwnBlend.h): nearly the field, at a part of the cost. Overwrites `value`, and
+  /// `gradient` unless null. \pre not BlendingKind::All.
+  /// \param selection of a box that holds the points; null when they may be anywhere.
+  void ownSum(std::int32_t group, const BlendSelection* selection, PointBatch points, double* value,
+    const VectorBatch* gradient) const;
 
   /// Bounds of the field in a box. \pre the selection is that of the box or of a larger one.
   Interval range(const BlendSelection& selection, const Box3& box) const;
@@ -65,6 +67,8 @@ private:
   BlendGroups groups() const; ///< where neighbours blend
   void sumControlled(const BlendSelection& selection, PointBatch points, double* value,
     const VectorBatch* gradient) const;
+  void ownBlend(std::int32_t group, const BlendSelection* selection, PointBatch points,
+    double* value, const VectorBatch* gradient) const;
   Interval mixedRange(const BlendSelection& selection, const Box3& box) const;
   double mixedSlope(const BlendSelection& selection, const Box3& box) const;
 

@@ -331,6 +331,12 @@ struct CompactSums
         ElementSums<Element, Integral<n()>>::addWithGradient(span, kernel, points, sum, gradient);
       });
   }
+  static void rows(ElementSpan<Element> span, const ConvolutionKernel& kernel, PointBatch points,
+    const ElementRows& to)
+  {
+    withExponent(
+      kernel, [&](auto n) { ElementSums<Element, Integral<n()>>::rows(span, kernel, points, to); });
+  }
 };
 
 struct CompactSharedSums

@@ -28,19 +28,35 @@ struct SharedElements
   double offset;
 };
 
-/// Batched sums of closed-form integrals over elements. A value depends on its point alone, not on
-/// its place in the batch; it is exactly 0 beyond the reach of a compact kernel. Gradients are
-/// exact.
+/// Where the fields of single elements go: a row of values per element, and behind it the three of
+/// the gradient where there are any.
+struct ElementRows
+{
+  double* first;
+  std::size_t stride; ///< from row to row, at least as many as there are points
+  bool haveGradients;
+};
+
+/// Points of a batch for ElementRows are a multiple of this.
+inline constexpr std::size_t kRowStep = 8;
+
+/// Batched closed-form integrals over elements: their sums, or each by itself. A value depends on
+/// its point alone, not on its place in the batch; it is exactly 0 beyond the reach of a compact
+/// kernel. Gradients are exact.
 struct ConvolutionKernels
 {
   void (*addSegments)(
     ElementSpan<SegmentElement>, const ConvolutionKernel&, PointBatch, double* sum);
   void (*addSegmentsWithGradient)(ElementSpan<SegmentElement>, const ConvolutionKernel&, PointBatch,
     double* sum, VectorBatch gradientSum);
+  void (*segmentRows)(
+    ElementSpan<SegmentElement>, const ConvolutionKernel&, PointBatch, const ElementRows&);
   void (*addTriangles)(
     ElementSpan<TriangleElement>, const ConvolutionKernel&, PointBatch, double* sum);
   void (*addTrianglesWithGradient)(ElementSpan<TriangleElement>, const ConvolutionKernel&,
     PointBatch, double* sum, VectorBatch gradientSum);
+  void (*triangleRows)(
+    ElementSpan<TriangleElement>, const ConvolutionKernel&, PointBatch, const ElementRows&);
   /// \pre the lists of the next two are not empty.
   void (*addShared)(
     const std::vector<SharedElements>&, const ConvolutionKernel&, PointBatch, double* sum);

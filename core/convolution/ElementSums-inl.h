@@ -73,10 +73,37 @@ inline double amplitudeOf(const ConvolutionKernel& kernel, const TriangleElement
   return triangleAmplitude(kernel);
 }
 
-// Two of the functions of a ConvolutionKernels.
+// A value and, as Rows is 1 or 4, its gradient.
+template <std::size_t Rows>
+struct Sample
+{
+  V rows[Rows];
+
+  HWY_INLINE Sample()
+  {
+    for (V& row : rows)
+    {
+      row = hn::Zero(D());
+    }
+  }
+};
+
+// Two of the functions of a ConvolutionKernels, and a third.
 template <class Element, class Integral>
 struct ElementSums
 {
+  static void rows(ElementSpan<Element> span, const ConvolutionKernel& kernel, PointBatch points,
+    const ElementRows& to)
+  {
+    if (to.haveGradients)
+    {
+      fillRows<4>(span, kernel, points, to);
+    }
+    else
+    {
+      fillRows<1>(span, kernel, points, to);
+    }
+  }
   static void add(
     ElementSpan<Element> span, const ConvolutionKernel& kernel, PointBatch points, double* sum)
   {
@@ -91,19 +118,38 @@ struct ElementSums
     forEachVector<4>(points, { sum, gradient.x, gradient.y, gradient.z },
       AddElementsWithGradientBody<Element, Integral>{ span, Integral(kernel), amplitude });
   }
-};
 
-// A value and, as Rows is 1 or 4, its gradient.
-template <std::size_t Rows>
-struct Sample
-{
-  V rows[Rows];
-
-  HWY_INLINE Sample()
+private:
+  template <std::size_t Rows>
+  static void fillRows(ElementSpan<Element> span, const ConvolutionKernel& kernel,
+    PointBatch points, const ElementRows& to)
   {
-    for (V& row : rows)
+    const D d;
+    const Integral integral(kernel);
+    const V amplitude = set(amplitudeOf(kernel, static_cast<const Element*>(nullptr)));
+    for (std::size_t at = 0; at < points.size; at += hn::Lanes(d))
     {
-      row = hn::Zero(D());
+      const V x = hn::LoadU(d, points.x + at);
+      const V y = hn::LoadU(d, points.y + at);
+      const V z = hn::LoadU(d, points.z + at);
+      double* row = to.first + at;
+      for (std::size_t k = 0; k < span.count; ++k)
+      {
+        Sample<Rows> sample;
+        if constexpr (Rows == 1)
+        {
+          integral.add(*span.elements[k], x, y, z, sample.rows[0]);
+        }
+        else
+        {
+          integral.addWithGradient(*span.elements[k], x, y, z, sample.rows[0], sample.rows[1],
+            sample.rows[2], sample.rows[3]);
+        }
+        for (std::size_t r = 0; r < Rows; ++r, row += to.stride)
+        {
+          hn::StoreU(hn::Mul(amplitude, sample.rows[r]), d, row);
+        }
+      }
     }
   }
 };
@@ -231,7 +277,8 @@ template <class Segments, class Triangles, class Shared>
 const ConvolutionKernels* kernelsOf()
 {
   static const ConvolutionKernels kernels = { &Segments::add, &Segments::addWithGradient,
-    &Triangles::add, &Triangles::addWithGradient, &Shared::add, &Shared::addWithGradient };
+    &Segments::rows, &Triangles::add, &Triangles::addWithGradient, &Triangles::rows, &Shared::add,
+    &Shared::addWithGradient };
   return &kernels;
 }
 

@@ -68,13 +68,19 @@ double reachOf(const SubdivisionSkeletonOptions& options, const Parameters& para
   return options.kernel.influenceRatio * (controlled ? 3.0 : 1.0) * support;
 }
 
-/// \param elements null, or the same field near single elements.
-SkeletonField fieldOf(const SubdivisionSkeleton& leaf, const ElementFields* elements)
+/// \param elements the field near single elements, by these sums.
+SkeletonField fieldOf(
+  const SubdivisionSkeleton& leaf, const ElementFields* elements, SkeletonElementFields::Sums sums)
 {
   const SubdivisionSkeletonOptions& options = leaf.options();
   const Parameters parameters = leaf.parameters();
-  return { leaf.coarse(), leaf.refined(), options.level, leaf, reachOf(options, parameters),
-    optionsKey(parameters), elements };
+  std::uint64_t key = optionsKey(parameters);
+  if (options.blending.kind != BlendingKind::All)
+  {
+    mix(key, std::uint64_t(sums)); // a preview's pieces are not those of a closed mesh
+  }
+  return { leaf.coarse(), leaf.refined(), options.level, leaf, reachOf(options, parameters), key,
+    elements };
 }
 
 constexpr std::size_t kTogether = 32; // points whose elements are looked for at once
@@ -186,8 +192,9 @@ TriangleMesh subdivisionSkeletonMesh(const SubdivisionSkeleton& leaf, double edg
   options.edgeLength = edgeLength;
   options.refinement = leaf.options().refinement;
   const SkeletonElementFields elements(leaf, SkeletonElementFields::Sums::Largest);
-  std::optional<StitchedMesh> made = skeletonMesh(
-    fieldOf(leaf, &elements), options, &sharedCache(), ProgressPart(progress, 0.0, 0.8));
+  std::optional<StitchedMesh> made =
+    skeletonMesh(fieldOf(leaf, &elements, SkeletonElementFields::Sums::Largest), options,
+      &sharedCache(), ProgressPart(progress, 0.0, 0.8));
   if (made && made->mesh.triangles.empty())
   {
     warning = "The skeleton has no surface: it is too short beside its radius, or too thin for the "
@@ -220,7 +227,8 @@ TriangleMesh subdivisionSkeletonPreview(const SubdivisionSkeleton& leaf, const P
   PieceMeshOptions options;
   options.refinement = leaf.options().refinement;
   const SkeletonElementFields elements(leaf, SkeletonElementFields::Sums::Own);
-  return joinPieces(pieceMeshes(fieldOf(leaf, &elements), options, &sharedCache(), progress));
+  return joinPieces(pieceMeshes(
+    fieldOf(leaf, &elements, SkeletonElementFields::Sums::Own), options, &sharedCache(), progress));
 }
 
 void nearestPieces(const SubdivisionSkeleton& leaf, PointBatch points, std::int32_t* pieces)

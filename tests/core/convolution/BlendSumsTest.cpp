@@ -101,36 +101,55 @@ public:
 
   double operator()(const Vec3& p) const
   {
-    const std::size_t groups = pieces_.neighbours.size();
-    std::vector<double> own(groups, 0.0);
-    std::vector<double> here;
+    const Fields fields = this->fieldsAt(p);
+    double best = 0.0;
+    for (std::size_t i = 0; i < fields.own.size(); ++i)
+    {
+      best = std::max(best, this->sum(static_cast<std::int32_t>(i), fields));
+    }
+    return this->end(best);
+  }
+
+  /// Of one group by itself.
+  double own(std::size_t i, const Vec3& p) const
+  {
+    return this->end(this->sum(static_cast<std::int32_t>(i), this->fieldsAt(p)));
+  }
+
+private:
+  struct Fields
+  {
+    std::vector<double> own;  // per group
+    std::vector<double> here; // per piece
     std::vector<BlendPieces::Place> places;
+  };
+
+  Fields fieldsAt(const Vec3& p) const
+  {
+    Fields fields;
+    fields.own.assign(pieces_.neighbours.size(), 0.0);
     const auto visit = [&](const auto& elements, const std::vector<BlendPieces::Place>& of)
     {
       for (std::size_t k = 0; k < elements.size(); ++k)
       {
-        here.push_back(valueOf(elements[k], kernel_, p));
-        places.push_back(of[k]);
-        own[static_cast<std::size_t>(of[k].group)] += here.back();
+        fields.here.push_back(valueOf(elements[k], kernel_, p));
+        fields.places.push_back(of[k]);
+        fields.own[static_cast<std::size_t>(of[k].group)] += fields.here.back();
       }
     };
     visit(pieces_.segments, pieces_.segmentPlaces);
     visit(pieces_.triangles, pieces_.trianglePlaces);
-    double best = 0.0;
-    for (std::size_t i = 0; i < groups; ++i)
-    {
-      best = std::max(best, this->sum(static_cast<std::int32_t>(i), own, here, places));
-    }
-    return kernel_.kind == KernelKind::Cauchy ? faded(best) : best;
+    return fields;
   }
 
-private:
+  double end(double sum) const { return kernel_.kind == KernelKind::Cauchy ? faded(sum) : sum; }
+
   // G_i.
-  double sum(std::int32_t i, const std::vector<double>& own, const std::vector<double>& here,
-    const std::vector<BlendPieces::Place>& places) const
+  double sum(std::int32_t i, const Fields& fields) const
   {
+    const auto& [own, here, places] = fields;
     const std::vector<std::int32_t>& others = pieces_.neighbours[static_cast<std::size_t>(i)];
-    const auto isIn = [&](std::int32_t group)
+    const auto isIn = [i, &others](std::int32_t group)
     { return group == i || std::binary_search(others.begin(), others.end(), group); };
     const BlendShare share(control_);
     double total = 0.0;
@@ -405,8 +424,8 @@ TEST(PaperSums, OfOneElementAreThoseOfItsNeighboursAlone)
     {
       const auto number = static_cast<std::int32_t>(group);
       const VectorBatch slopes = gradient;
-      field.ownSum(number, points, value.data(), &slopes);
-      field.ownSum(number, points, alone.data(), nullptr);
+      field.ownSum(number, nullptr, points, value.data(), &slopes);
+      field.ownSum(number, nullptr, points, alone.data(), nullptr);
       for (std::size_t k = 0; k < points.size(); ++k)
       {
         ASSERT_NEAR(value[k], expected.own(group, points[k]), 1e-12);
@@ -421,6 +440,50 @@ TEST(PaperSums, OfOneElementAreThoseOfItsNeighboursAlone)
         }
       }
     }
+  }
+}
+
+// The same by distance: exactly, and, from what reaches a box, so that the field is left where it
+// is the plain sum.
+TEST(OwnBlends, OfOneElementAreItsSumOfTheDefinition)
+{
+  Random random(15);
+  for (const ConvolutionKernel& kernel : { kQuadratic, kCubic, kCauchy })
+  {
+    const BlendingControl control{ BlendingKind::Neighbours, 0.7 };
+    const GroupedElements elements = tangle(random, 3);
+    const BlendedField field(kernel, control, elements);
+    const Definition expected(elements, control, kernel);
+    const PointList points = randomPoints(random, around(elements), 70);
+    std::vector<double> value(points.size());
+    std::vector<double> alone(points.size());
+    VectorList gradient(points.size());
+    const VectorBatch slopes = gradient;
+    BlendSelection selection;
+    field.select(field.influenceBounds(), selection);
+    int smaller = 0;
+    for (std::size_t group = 0; group < elements.groups.size(); ++group)
+    {
+      const auto number = static_cast<std::int32_t>(group);
+      field.ownSum(number, nullptr, points, value.data(), &slopes);
+      field.ownSum(number, &selection, points, alone.data(), nullptr);
+      for (std::size_t k = 0; k < points.size(); ++k)
+      {
+        const Vec3& p = points[k];
+        ASSERT_NEAR(value[k], expected.own(group, p), 1e-12);
+        const bool isSum = std::abs(alone[k] - expected(p)) < 1e-12;
+        ASSERT_TRUE(isSum || std::abs(alone[k] - value[k]) < 1e-12) << group << " " << k;
+        smaller += value[k] < expected(p) - 1e-6;
+        constexpr double kStep = 1e-6;
+        for (int axis = 0; axis < 3 && k < 20; ++axis)
+        {
+          const Vec3 step = kStep * Vec3::Unit(axis);
+          const double slope = expected.own(group, p + step) - expected.own(group, p - step);
+          ASSERT_NEAR(slopes[k][axis], slope / (2.0 * kStep), 1e-4);
+        }
+      }
+    }
+    EXPECT_GT(smaller, 50);
   }
 }
 

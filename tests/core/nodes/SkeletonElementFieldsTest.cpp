@@ -60,6 +60,36 @@ TEST(SkeletonElementFields, AreTheFieldItself)
   }
 }
 
+// The default blending of neighbours: what a piece follows is nearly the field, and never more.
+TEST(SkeletonElementFields, PiecesByDistanceFollowTheField)
+{
+  for (const KernelKind kernel : { KernelKind::Compact, KernelKind::Cauchy })
+  {
+    const auto leaf = leafOf(bretzel(), kernel, BlendingKind::Neighbours);
+    const SkeletonElementFields fields(*leaf, SkeletonElementFields::Sums::Own);
+    std::size_t found = 0;
+    std::size_t equal = 0;
+    for (const PieceMeshPtr& piece : pieceMeshes(
+           { leaf->coarse(), leaf->refined(), leaf->options().level, *leaf, 2.0, 0, &fields }, {}))
+    {
+      const PointList points(piece->points);
+      std::vector<double> value(points.size());
+      leaf->field(points, value.data());
+      for (std::size_t k = 0; k < points.size(); ++k)
+      {
+        if (piece->onSurface[k])
+        {
+          ASSERT_GE(value[k], (1.0 - 2e-7) * kThreshold);
+          equal += value[k] < 1.01 * kThreshold;
+          ++found;
+        }
+      }
+    }
+    EXPECT_GT(found, 1000u);
+    EXPECT_GT(equal, found * 95 / 100);
+  }
+}
+
 // [SUB] 5: every vertex lies where the sum of its own element and the neighbours of that is T.
 TEST(SkeletonElementFields, PiecesFollowTheSumsOfTheirElements)
 {
@@ -81,7 +111,7 @@ TEST(SkeletonElementFields, PiecesFollowTheSumsOfTheirElements)
         const Vec3& p = piece->points[k];
         double value;
         leaf->convolution().ownSum(
-          piece->elements[k], { &p.x(), &p.y(), &p.z(), 1 }, &value, nullptr);
+          piece->elements[k], nullptr, { &p.x(), &p.y(), &p.z(), 1 }, &value, nullptr);
         if (piece->onSurface[k])
         {
           ASSERT_NEAR(value, kThreshold, 2e-7 * kThreshold);
