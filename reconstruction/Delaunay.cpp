@@ -288,10 +288,7 @@ void Delaunay::fill(Worker& worker, std::int32_t vertex, const Vec3& point, Cavi
 
 bool Delaunay::hasCells(const Worker& worker, const Cavity& cavity) const
 {
-  return worker.slab_ == 0 ||
-    cavity.cells.size() + worker.unused.size() +
-      static_cast<std::size_t>(worker.endCell - worker.nextCell) >=
-    cavity.border.size();
+  return worker.slab_ == 0 || cavity.cells.size() + worker.cellsLeft() >= cavity.border.size();
 }
 
 void Delaunay::fill(Worker& worker, std::int32_t point, Cavity& cavity)

@@ -55,6 +55,10 @@ public:
 
   private:
     friend class Delaunay;
+    std::size_t cellsLeft() const
+    {
+      return unused.size() + static_cast<std::size_t>(endCell - nextCell);
+    }
     struct Base
     {
       std::array<std::int32_t, 3> corners;
@@ -195,6 +199,7 @@ private:
   std::vector<Worker> makeSlabs(int axis, std::vector<double> places);
   void markSlab(std::int32_t cell);
   int slabOf(const Vec3& point) const;
+  void reuseCells(Worker& worker, std::size_t points);
   void provideCells(Worker& worker, std::size_t points);
   void giveUpRest(Worker& worker);
   std::int32_t startOf(const Worker& worker) const;

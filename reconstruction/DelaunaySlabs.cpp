@@ -104,18 +104,16 @@ std::int32_t Delaunay::provide(Worker& worker, std::size_t vertices)
   cellOf_.resize(points_.size(), -1);
   local_.resize(points_.size(), 0);
   slabs_.resize(points_.size(), static_cast<std::uint8_t>(worker.slab_));
+  this->reuseCells(worker, vertices);
   this->provideCells(worker, vertices);
   return first;
 }
 
-// So many that points can be inserted, but for places that need uncommonly many.
-void Delaunay::provideCells(Worker& worker, std::size_t points)
+// Cells that were given up, as long as there are any.
+void Delaunay::reuseCells(Worker& worker, std::size_t points)
 {
-  const auto has = [&]
-  { return worker.unused.size() + static_cast<std::size_t>(worker.endCell - worker.nextCell); };
-  const std::size_t wanted = kCellsPerPoint * points;
   std::vector<std::int32_t>& unused = anywhere_.unused;
-  for (; has() < wanted && !unused.empty(); unused.pop_back())
+  for (; worker.cellsLeft() < kCellsPerPoint * points && !unused.empty(); unused.pop_back())
   {
     const std::int32_t cell = unused.back();
     if (cells_[cell].vertices[0] == kUnused) // it may be listed twice, or used since
@@ -125,7 +123,13 @@ void Delaunay::provideCells(Worker& worker, std::size_t points)
       worker.unused.push_back(cell);
     }
   }
-  const std::size_t more = wanted - std::min(wanted, has());
+}
+
+// So many that points can be inserted, but for places that need uncommonly many.
+void Delaunay::provideCells(Worker& worker, std::size_t points)
+{
+  const std::size_t wanted = kCellsPerPoint * points;
+  const std::size_t more = wanted - std::min(wanted, worker.cellsLeft());
   if (more == 0 || cells_.size() + more > kMostCells)
   {
     return;

@@ -31,6 +31,7 @@ Front::Front(
   , inside_(tetrahedra.cellCount(), 0)
   , held_(tetrahedra.cellCount(), 0)
   , reached_(tetrahedra.points().size(), 0)
+  , edges_(tetrahedra.points().size(), 0)
 {
   for (std::int32_t cell = 0; cell < tetrahedra_.cellCount(); ++cell)
   {
@@ -139,6 +140,7 @@ void Front::passEmptySpace(const Progress& progress)
   for (const std::int32_t cell : passed)
   {
     this->reach(cell);
+    this->markEdges(cell, 0);
     for (int facet = 0; facet < 4; ++facet)
     {
       const std::int32_t beyond = tetrahedra_.neighbor(cell, facet);
@@ -248,12 +250,41 @@ void Front::pass(std::int32_t cell)
 {
   inside_[cell] = 0;
   this->reach(cell);
+  unsigned open = 0;
   for (int facet = 0; facet < 4; ++facet)
   {
     const std::int32_t beyond = tetrahedra_.neighbor(cell, facet);
     if (this->isInside(beyond))
     {
       this->uncover(beyond, tetrahedra_.mirror(cell, facet));
+    }
+    else
+    {
+      open |= bitOf(facet);
+    }
+  }
+  this->markEdges(cell, open);
+}
+
+std::uint64_t Front::bitOfEnd(std::int32_t vertex)
+{
+  return std::uint64_t(1) << (static_cast<std::uint32_t>(vertex) * 0x9e3779b1u >> 26);
+}
+
+// Of a cell passed. Those of facets that were open have been marked with the cells beyond.
+void Front::markEdges(std::int32_t cell, unsigned open)
+{
+  const auto& vertices = tetrahedra_.cell(cell);
+  for (int i = 0; i < 4; ++i)
+  {
+    for (int j = 0; j < i; ++j)
+    {
+      const auto [low, high] = std::minmax(vertices[i], vertices[j]);
+      const unsigned beside = static_cast<unsigned>(bitOf(i) | bitOf(j)); // facets without the edge
+      if ((open & ~beside) == 0 && low != Tetrahedralization::kInfinite)
+      {
+        edges_[low] |= bitOfEnd(high);
+      }
     }
   }
 }
@@ -313,10 +344,16 @@ bool Front::keepsTopology(std::int32_t cell) const
   return openCount == 3 || (openCount == 2 && this->edgeIsBuried(cell, open[0], open[1]));
 }
 
+// Whether no cell around the edge from the i-th vertex to the j-th is passed.
 bool Front::edgeIsBuried(std::int32_t cell, int i, int j) const
 {
   const std::int32_t from = tetrahedra_.cell(cell)[i];
   const std::int32_t to = tetrahedra_.cell(cell)[j];
+  const auto [low, high] = std::minmax(from, to);
+  if ((edges_[low] & bitOfEnd(high)) == 0) // nearly always
+  {
+    return true;
+  }
   int leave = 0;
   while (leave == i || leave == j)
   {

@@ -77,6 +77,8 @@ private:
   void pass(std::int32_t cell);
   bool keepsTopology(std::int32_t cell) const;
   bool edgeIsBuried(std::int32_t cell, int i, int j) const;
+  void markEdges(std::int32_t cell, unsigned open);
+  static std::uint64_t bitOfEnd(std::int32_t vertex);
 
   const Tetrahedralization& tetrahedra_;
   const FacetSize& sizes_;
@@ -86,6 +88,9 @@ private:
   std::vector<std::uint8_t> inside_;  // per cell
   std::vector<std::uint8_t> held_;    // per cell: facets through which it may not be passed yet
   std::vector<std::uint8_t> reached_; // per point: whether a cell around it is passed
+  // Per point: bits of the other ends of edges to higher points around which a cell is passed.
+  // Edges may share a bit.
+  std::vector<std::uint64_t> edges_;
   SizeQueue queue_;
   std::priority_queue<Membrane> membranes_;
 };
