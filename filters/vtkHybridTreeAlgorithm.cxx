@@ -39,7 +39,8 @@ struct vtkHybridTreeAlgorithm::State
   vtkMTimeType NodeTime = 0; ///< modification time of the filter that Node belongs to
   Operands NodeOperands;     ///< operands that Node was made from
   hybridtree::FormulationRequest Asked;
-  std::vector<std::string> Told;                          ///< warnings already given about Node
+  std::vector<std::string> Told;       ///< warnings about Node
+  std::vector<std::string> ToldBefore; ///< about the node before it, which are not given again
   std::vector<vtkSmartPointer<vtkDataArray>> FieldArrays; ///< of the last output
 };
 
@@ -212,7 +213,12 @@ vtkPolyData* vtkHybridTreeAlgorithm::GetWholeInput(int port)
     return nullptr;
   }
   state.Joined.push_back(hybridtree::joined(connections.front()));
-  return vtkPolyData::SafeDownCast(state.Joined.back());
+  auto* whole = vtkPolyData::SafeDownCast(state.Joined.back());
+  if (whole)
+  {
+    hybridtree::requireValidCells(whole);
+  }
+  return whole;
 }
 
 //------------------------------------------------------------------------------
@@ -274,6 +280,7 @@ void vtkHybridTreeAlgorithm::UpdateNode()
     state.NodeOperands != operands)
   {
     state.Node = nullptr;
+    state.ToldBefore.swap(state.Told);
     state.Told.clear();
     this->Warn(warnings);
     state.Node = this->MakeNode(operands);
@@ -343,12 +350,18 @@ void vtkHybridTreeAlgorithm::FillOtherOutputs(vtkInformationVector*) {}
 //------------------------------------------------------------------------------
 void vtkHybridTreeAlgorithm::Warn(const std::vector<std::string>& warnings)
 {
-  std::vector<std::string>& told = this->Internals->Told;
+  const auto contains = [](const std::vector<std::string>& list, const std::string& text)
+  { return std::find(list.begin(), list.end(), text) != list.end(); };
+  State& state = *this->Internals;
   for (const std::string& warning : warnings)
   {
-    if (std::find(told.begin(), told.end(), warning) == told.end())
+    if (contains(state.Told, warning))
     {
-      told.push_back(warning);
+      continue;
+    }
+    state.Told.push_back(warning);
+    if (!contains(state.ToldBefore, warning)) // dragging would tell it again at every step
+    {
       vtkWarningMacro(<< warning);
     }
   }

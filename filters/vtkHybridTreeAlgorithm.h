@@ -136,7 +136,8 @@ protected:
   /**
    * The first connection of a port as one polydata, for ReadOtherInputs(): blocks of composite
    * data, and the parts that several processes have, are joined. Null without a connection, and
-   * for other data. Lives as long as the run.
+   * for other data. Lives as long as the run. \throws hybridtree::InvalidGeometry for a cell of
+   * points that are not there.
    */
   vtkPolyData* GetWholeInput(int port);
 

@@ -38,6 +38,18 @@ hybridtree::BarrFrame vtkHybridTreeBarr::GetFrame(const hybridtree::Node& input)
 }
 
 //------------------------------------------------------------------------------
+hybridtree::BarrFrame vtkHybridTreeBarr::GetFrameAroundAxis(const hybridtree::Node& input) const
+{
+  hybridtree::BarrFrame frame = this->GetFrame(input);
+  const double lengths = frame.axis.norm() * frame.normal.norm();
+  if (frame.axis.norm() > 0.0 && frame.axis.cross(frame.normal).norm() <= 1e-6 * lengths)
+  {
+    frame.normal = frame.axis.unitOrthogonal();
+  }
+  return frame;
+}
+
+//------------------------------------------------------------------------------
 void vtkHybridTreeBarr::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);

@@ -40,7 +40,7 @@ public:
   ///@{
   /**
    * Direction across the axis towards which a bend goes. Its part along the axis does not count; it
-   * must not be parallel to the axis. Default (1, 0, 0).
+   * must not be parallel to the axis. Twist and taper do not depend on it. Default (1, 0, 0).
    */
   vtkSetVector3Macro(Normal, double);
   vtkGetVector3Macro(Normal, double);
@@ -74,6 +74,11 @@ protected:
    * The frame that the properties describe for an input.
    */
   hybridtree::BarrFrame GetFrame(const hybridtree::Node& input) const;
+
+  /**
+   * The same for a deformation that is alike all around the axis: any Normal will do.
+   */
+  hybridtree::BarrFrame GetFrameAroundAxis(const hybridtree::Node& input) const;
 #endif
 
   double Origin[3] = { 0.0, 0.0, 0.0 };

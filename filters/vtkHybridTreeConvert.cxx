@@ -14,6 +14,7 @@
 #include "vtkPolygon.h"
 #include "vtkTypeInt32Array.h"
 
+#include <algorithm>
 #include <cstring>
 #include <limits>
 #include <map>
@@ -270,6 +271,25 @@ private:
   vtkNew<vtkPoints> unused_;
 };
 
+/// Returns the number of the cell after the last one.
+vtkIdType requirePointsOf(vtkCellArray* cells, vtkIdType cell, vtkIdType points)
+{
+  forEachCell(cells,
+    [&](vtkIdType size, const vtkIdType* ids)
+    {
+      const auto bad =
+        std::find_if(ids, ids + size, [points](vtkIdType id) { return id < 0 || id >= points; });
+      if (bad != ids + size)
+      {
+        throw InvalidGeometry("Cell " + std::to_string(cell) + " refers to point " +
+          std::to_string(*bad) + ", but the input has " + std::to_string(points) +
+          " points, counted from 0. Mend the filter or file it comes from.");
+      }
+      ++cell;
+    });
+  return cell;
+}
+
 void requirePolygons(vtkPolyData* input)
 {
   if (input->GetNumberOfPolys() > 0 || input->GetNumberOfStrips() > 0)
@@ -342,9 +362,20 @@ vtkTypeUInt64 fingerprint(vtkPolyData* mesh)
   return hash.result();
 }
 
+void requireValidCells(vtkPolyData* input)
+{
+  vtkIdType cell = 0;
+  for (vtkCellArray* cells :
+    { input->GetVerts(), input->GetLines(), input->GetPolys(), input->GetStrips() })
+  {
+    cell = requirePointsOf(cells, cell, input->GetNumberOfPoints());
+  }
+}
+
 ConvertedMesh toMesh(vtkPolyData* input)
 {
   requirePolygons(input);
+  requireValidCells(input);
   const Triangulator made(input);
   ConvertedMesh converted;
   converted.repaired = repairMesh(pointsOf(input), made.triangles);

@@ -22,6 +22,10 @@ namespace hybridtree
 /// a mesh; arrays do not count. Tells whether a mesh is still the one a tree was put on.
 vtkTypeUInt64 fingerprint(vtkPolyData* mesh);
 
+/// \throws InvalidGeometry when a cell uses a point that is not there, which VTK reads
+/// nevertheless.
+void requireValidCells(vtkPolyData* input);
+
 /// A polydata as a mesh leaf takes it.
 struct ConvertedMesh
 {
@@ -32,7 +36,8 @@ struct ConvertedMesh
 
 /// Triangulates polygons and strips and repairs the outcome (exactly equal points become one, ...).
 /// Vertices and lines beside them do not count.
-/// \throws InvalidGeometry when there are no polygons or strips, or repairMesh() finds no way.
+/// \throws InvalidGeometry when there are no polygons or strips, as requireValidCells() does, or
+/// when repairMesh() finds no way.
 ConvertedMesh toMesh(vtkPolyData* input);
 
 /// Gives `output` the points, triangles, Normals and SourceId of a mesh, without copying: the

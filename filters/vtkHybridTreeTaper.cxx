@@ -14,7 +14,7 @@ vtkHybridTreeTaper::~vtkHybridTreeTaper() = default;
 vtkHybridTreeTaper::NodePtr vtkHybridTreeTaper::MakeNode(const Operands& operands)
 {
   const NodePtr& input = operands[0].front();
-  return hybridtree::makeTaper(input, this->GetFrame(*input), this->Factor);
+  return hybridtree::makeTaper(input, this->GetFrameAroundAxis(*input), this->Factor);
 }
 
 //------------------------------------------------------------------------------

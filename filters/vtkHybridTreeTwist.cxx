@@ -16,7 +16,7 @@ vtkHybridTreeTwist::NodePtr vtkHybridTreeTwist::MakeNode(const Operands& operand
 {
   const NodePtr& input = operands[0].front();
   return hybridtree::makeTwist(
-    input, this->GetFrame(*input), vtkMath::RadiansFromDegrees(this->Angle));
+    input, this->GetFrameAroundAxis(*input), vtkMath::RadiansFromDegrees(this->Angle));
 }
 
 //------------------------------------------------------------------------------

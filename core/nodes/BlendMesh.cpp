@@ -157,7 +157,7 @@ void noteStitched(const Node& node, double edgeLength)
 
 /// The meshes of the parts that keep theirs; takes the right from those whose mesh is not sound.
 std::vector<KeptPart> keptMeshes(const std::vector<BlendPart>& parts, std::vector<MarkTerm>& terms,
-  double edgeLength, const Progress& progress)
+  double edgeLength, BlendMeshReport& report, const Progress& progress)
 {
   std::vector<KeptPart> kept;
   for (std::size_t k = 0; k < parts.size(); ++k)
@@ -182,6 +182,13 @@ std::vector<KeptPart> keptMeshes(const std::vector<BlendPart>& parts, std::vecto
     if (terms[k].kept)
     {
       kept.push_back(std::move(part));
+    }
+    else
+    {
+      report.warning =
+        "An operand of the blend is not a closed surface, so its triangles cannot be "
+        "kept: all that it reaches was polygonized anew, which is coarser and takes "
+        "longer. Close its holes first, or reconstruct its points.";
     }
   }
   return kept;
@@ -381,7 +388,7 @@ TriangleMesh meshByParts(const Node& blend, const std::vector<BlendPart>& parts,
   }
   const std::size_t keeping = keepingCount(terms);
   const std::vector<KeptPart> kept =
-    keptMeshes(parts, terms, edgeLength, ProgressPart(progress, 0.0, 0.3));
+    keptMeshes(parts, terms, edgeLength, report, ProgressPart(progress, 0.0, 0.3));
   if (kept.empty())
   {
     return wholeLattice(blend, edgeLength, report, ProgressPart(progress, 0.3, 1.0));

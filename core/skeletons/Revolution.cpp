@@ -56,6 +56,33 @@ CubicSpan mirrored(CubicSpan span)
   return span;
 }
 
+/// Of what the spans sweep around the axis.
+Box3 sweptBounds(const std::vector<CubicSpan>& spans, const RevolutionShape& shape)
+{
+  Box3 box;
+  for (CubicSpan span : spans)
+  {
+    const CubicSpan flat = span;
+    Box3 part;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      // A circle of radius r around the axis reaches r sqrt(1 - a_i^2) along coordinate i.
+      const double a = shape.axis[axis];
+      const double across = std::sqrt(std::max(0.0, 1.0 - a * a));
+      for (std::size_t k = 0; k < 4; ++k)
+      {
+        span.control[k].at[axis] = shape.origin[axis] + flat.control[k].at.y() * a;
+        span.control[k].radius = flat.control[k].at.x() * across;
+      }
+      const Box3 balls = span.ballBounds();
+      part.min()[axis] = std::min(balls.min()[axis], balls.max()[axis]);
+      part.max()[axis] = std::max(balls.min()[axis], balls.max()[axis]);
+    }
+    box.extend(part);
+  }
+  return box;
+}
+
 } // namespace
 
 std::vector<CubicSpan> drawnProfile(const RevolutionShape& shape)
@@ -85,6 +112,7 @@ RevolutionSkeleton::RevolutionSkeleton(RevolutionShape shape)
 {
   const std::vector<CubicSpan> spans = drawnProfile(shape_);
   distance_.assign(spans);
+  bounds_ = sweptBounds(spans, shape_);
   if (shape_.solid)
   {
     region_ = PlanarRegion(spans);
@@ -164,33 +192,7 @@ Interval RevolutionSkeleton::distanceRange(const Box3& box) const
     most = std::min(
       most, (box.max() - nearest).cwiseAbs().cwiseMax((box.min() - nearest).cwiseAbs()).norm());
   }
-  return widenedByRounding({ std::max(0.0, atCenter - reach), most }, box, this->bounds());
-}
-
-Box3 RevolutionSkeleton::bounds() const
-{
-  Box3 box;
-  for (CubicSpan span : drawnProfile(shape_))
-  {
-    const CubicSpan flat = span;
-    Box3 part;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      // A circle of radius r around the axis reaches r sqrt(1 - a_i^2) along coordinate i.
-      const double a = shape_.axis[axis];
-      const double across = std::sqrt(std::max(0.0, 1.0 - a * a));
-      for (std::size_t k = 0; k < 4; ++k)
-      {
-        span.control[k].at[axis] = shape_.origin[axis] + flat.control[k].at.y() * a;
-        span.control[k].radius = flat.control[k].at.x() * across;
-      }
-      const Box3 balls = span.ballBounds();
-      part.min()[axis] = std::min(balls.min()[axis], balls.max()[axis]);
-      part.max()[axis] = std::max(balls.min()[axis], balls.max()[axis]);
-    }
-    box.extend(part);
-  }
-  return box;
+  return widenedByRounding({ std::max(0.0, atCenter - reach), most }, box, bounds_);
 }
 
 std::optional<TriangleMesh> RevolutionSkeleton::offsetMesh(double radius, double edgeLength) const

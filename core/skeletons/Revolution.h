@@ -41,7 +41,7 @@ public:
 
   /// By the exact distance at the centre of the box, as for splines.
   Interval distanceRange(const Box3& box) const override;
-  Box3 bounds() const override;
+  Box3 bounds() const override { return bounds_; }
 
   /// The revolved offset of the profile: arcs around its corners, trimmed where it turns inwards.
   /// No value where that meets itself (found on dense samples and on the rings), where a curved
@@ -62,6 +62,7 @@ private:
   CurveDistance distance_; // to all that is drawn in the half plane
   PlanarRegion region_;    // empty for a sheet
   Vec3 side_;
+  Box3 bounds_;
 };
 
 /// The spans that are drawn in the half plane: the profile, the closing lines of a solid, and

@@ -10,8 +10,10 @@
 #include "vtkHybridTreeBoolean.h"
 #include "vtkHybridTreeBox.h"
 #include "vtkHybridTreeCircle.h"
+#include "vtkHybridTreeCurveSkeletons.h"
 #include "vtkHybridTreeFreeFormDeformation.h"
 #include "vtkHybridTreeMeshField.h"
+#include "vtkHybridTreePoint.h"
 #include "vtkHybridTreeTaper.h"
 #include "vtkHybridTreeTwist.h"
 #include "vtkPointData.h"
@@ -119,8 +121,9 @@ TEST(BadInput, FramesAndMaps)
   twist->SetInputConnection(a->GetOutputPort());
   twist->SetAxis(0.0, 0.0, 0.0);
   expectError(twist, { "xis" });
-  twist->SetAxis(1.0, 0.0, 0.0); // along the normal
-  expectError(twist, { "ormal" });
+  twist->SetAxis(1.0, 0.0, 0.0); // along the normal, which a twist has no use for
+  twist->Update();
+  expectSolid(twist->GetOutput());
   twist->SetAxis(0.0, 0.0, 1.0);
   twist->SetRange(1.0, -1.0);
   expectError(twist, { "ange" });
@@ -134,6 +137,9 @@ TEST(BadInput, FramesAndMaps)
   bend->SetInputConnection(a->GetOutputPort());
   bend->SetAngle(400.0);
   expectError(bend, { "ngle" });
+  bend->SetAngle(45.0);
+  bend->SetAxis(1.0, 0.0, 0.0);
+  expectError(bend, { "ormal", "parallel" });
 
   vtkNew<vtkHybridTreeAffineTransform> map;
   map->SetInputConnection(a->GetOutputPort());
@@ -317,7 +323,48 @@ TEST(BadInput, OpenAndCrowdedMeshesAreToldOnce)
     field->SetEdgeLength(0.3);
     field->Update();
     EXPECT_EQ(messages.warnings, "") << "the same node has nothing new to say";
+    field->SetInfluenceRadius(0.3);
+    field->Update();
+    EXPECT_EQ(messages.warnings, "") << "nor has the next one";
   }
+}
+
+TEST(BadInput, CellsOfPointsThatDoNotExist)
+{
+  for (const vtkIdType bad : { vtkIdType(-1), vtkIdType(4), vtkIdType(1) << 32 })
+  {
+    Tetrahedron shape;
+    const vtkIdType corners[4] = { 0, 1, 2, bad };
+    shape.cells->InsertNextCell(4, corners);
+    vtkNew<vtkHybridTreeBlend> blend;
+    blend->AddInputData(shape.data);
+    const std::string which = "refers to point " + std::to_string(bad);
+    expectError(blend, { "Cell 4 " + which, "4 points" });
+    vtkNew<vtkCellArray> lines;
+    lines->InsertNextCell(4, corners);
+    shape.data->SetLines(lines);
+    vtkNew<vtkHybridTreeCurveSkeletons> curves;
+    curves->SetInputData(shape.data);
+    expectError(curves, { "Cell 0 " + which });
+  }
+}
+
+TEST(BadInput, OperandsThatCannotKeepTheirTrianglesAreTold)
+{
+  vtkNew<vtkSphereSource> open;
+  open->SetEndPhi(150.0);
+  open->SetThetaResolution(40);
+  open->SetPhiResolution(40);
+  vtkNew<vtkHybridTreePoint> knob;
+  knob->SetCenter(0.0, 0.0, 0.5);
+  knob->SetSurfaceRadius(0.1);
+  knob->SetInfluenceRadius(0.2);
+  vtkNew<vtkHybridTreeBlend> blend;
+  const Messages messages(blend);
+  blend->AddInputConnection(open->GetOutputPort());
+  blend->AddInputConnection(knob->GetOutputPort());
+  blend->Update();
+  EXPECT_NE(messages.warnings.find("Close its holes"), std::string::npos) << messages.warnings;
 }
 
 TEST(BadInput, StripsPolygonsAndTheCellsBesideThem)
