@@ -109,10 +109,16 @@ double squaresOf(const std::vector<MarkTerm>& terms, double cellSize)
   return area / (cellSize * cellSize);
 }
 
-TriangleMesh wholeLattice(
-  const Node& blend, double edgeLength, BlendMeshReport& report, const Progress& progress)
+/// The cells that are the same for all methods: what is too thin for them is so for each.
+CellGrid gridOf(const Node& blend, double edgeLength)
 {
-  TriangleMesh mesh = latticeMesh(blend, edgeLength, progress);
+  return CellGrid::ofLevel(edgeLength, blend.depth());
+}
+
+TriangleMesh wholeLattice(
+  const Node& blend, const CellGrid& grid, BlendMeshReport& report, const Progress& progress)
+{
+  TriangleMesh mesh = latticeMesh(blend, grid, progress);
   report.method = BlendMethod::Global;
   report.samplePoints = mesh.points.size();
   report.newTriangles = mesh.triangles.size();
@@ -294,7 +300,7 @@ TriangleMesh stitchOver(const Node& blend, const IslandField& field,
     report.warning = "The blend could not be joined to the meshes of its operands; all of it was "
                      "polygonized anew. A shorter edge length may help.";
     report.rounds = options.maxRounds;
-    return wholeLattice(blend, grid.cellSize, report, progress);
+    return wholeLattice(blend, grid, report, progress);
   }
   report.samplePoints = stitched->samplePoints;
   report.keptTriangles = stitched->keptTriangles;
@@ -368,7 +374,7 @@ TriangleMesh meshByParts(const Node& blend, const std::vector<BlendPart>& parts,
   const bool choose = options.method == BlendMethod::Automatic;
   const BlendCost cost(blend.isFaceted());
   const MemoryBudget budget{ kMaxBytes, edgeLength };
-  const CellGrid grid = CellGrid::ofLevel(edgeLength, blend.depth());
+  const CellGrid grid = gridOf(blend, edgeLength);
   const auto mark = [&](std::size_t mostCells)
   {
     return markedCells(
@@ -384,14 +390,14 @@ TriangleMesh meshByParts(const Node& blend, const std::vector<BlendPart>& parts,
   const bool chooseFirst = choose && !blend.isFaceted();
   if (chooseFirst && !(cells = markIfCheaper(squaresOf(terms, edgeLength))))
   {
-    return wholeLattice(blend, edgeLength, report, progress);
+    return wholeLattice(blend, grid, report, progress);
   }
   const std::size_t keeping = keepingCount(terms);
   const std::vector<KeptPart> kept =
     keptMeshes(parts, terms, edgeLength, report, ProgressPart(progress, 0.0, 0.3));
   if (kept.empty())
   {
-    return wholeLattice(blend, edgeLength, report, ProgressPart(progress, 0.3, 1.0));
+    return wholeLattice(blend, grid, report, ProgressPart(progress, 0.3, 1.0));
   }
   if (!chooseFirst || keepingCount(terms) < keeping)
   {
@@ -399,7 +405,7 @@ TriangleMesh meshByParts(const Node& blend, const std::vector<BlendPart>& parts,
   }
   const ProgressPart rest(progress, 0.4, 1.0);
   return cells ? stitchOver(blend, field, kept, std::move(*cells), grid, report, rest)
-               : wholeLattice(blend, edgeLength, report, rest);
+               : wholeLattice(blend, grid, report, rest);
 }
 
 } // namespace
@@ -414,7 +420,7 @@ TriangleMesh blendMesh(const Node& blend, std::vector<BlendPart> parts, const Bl
   }
   if (options.method == BlendMethod::Global)
   {
-    return wholeLattice(blend, edgeLength, report, progress);
+    return wholeLattice(blend, gridOf(blend, edgeLength), report, progress);
   }
   std::sort(parts.begin(), parts.end(),
     [](const BlendPart& a, const BlendPart& b) { return a.firstLeaf < b.firstLeaf; });
@@ -432,7 +438,7 @@ TriangleMesh localBlendMesh(const Node& blend, const LocalBlendParts& local,
   }
   if (options.method == BlendMethod::Global)
   {
-    return wholeLattice(blend, edgeLength, report, progress);
+    return wholeLattice(blend, gridOf(blend, edgeLength), report, progress);
   }
   const std::vector<MarkTerm> terms{ { local.a, false }, { local.b, false },
     { local.region, false }, { local.unionOfBoth, true } };

@@ -11,6 +11,11 @@ namespace hybridtree
 
 TriangleMesh latticeMesh(const Node& node, double edgeLength, const Progress& progress)
 {
+  return latticeMesh(node, CellGrid::ofLevel(edgeLength, 0), progress);
+}
+
+TriangleMesh latticeMesh(const Node& node, const CellGrid& grid, const Progress& progress)
+{
   if (node.isNegative())
   {
     return {};
@@ -19,19 +24,18 @@ TriangleMesh latticeMesh(const Node& node, double edgeLength, const Progress& pr
   Box3 bounds = node.surfaceBounds();
   if (!bounds.isEmpty())
   {
-    bounds.min().array() -= edgeLength;
-    bounds.max().array() += edgeLength;
+    bounds.min().array() -= grid.cellSize;
+    bounds.max().array() += grid.cellSize;
   }
   PolygonizeOptions options;
-  options.cellSize = edgeLength;
+  options.cellSize = grid.cellSize;
+  options.origin = grid.origin;
   TriangleMesh mesh = polygonize(node, bounds, options, ProgressPart(progress, 0.0, 0.9));
   if (node.isFaceted())
   {
     smoothNormals(mesh);
   }
-  Lattice lattice;
-  lattice.cellSize = edgeLength;
-  sharpenCreases(node, lattice, 0, mesh, progress);
+  sharpenCreases(node, grid.lattice({}, {}), 0, mesh, progress);
   findSourceLeaves(node, mesh, 0, progress);
   return mesh;
 }

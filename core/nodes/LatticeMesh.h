@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/nodes/Node.h"
+#include "core/stitch/CellGrid.h"
 
 namespace hybridtree
 {
@@ -17,5 +18,9 @@ namespace hybridtree
 /// \throws InvalidParameter, TooLarge, Cancelled as polygonize().
 TriangleMesh latticeMesh(
   const Node& node, double edgeLength, const Progress& progress = Progress::none());
+
+/// The same on the cells of a grid.
+TriangleMesh latticeMesh(
+  const Node& node, const CellGrid& grid, const Progress& progress = Progress::none());
 
 } // namespace hybridtree

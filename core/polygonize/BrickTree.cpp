@@ -174,8 +174,9 @@ Box3 BrickTree::boxOf(const Index3& brick, std::int64_t side) const
   Box3 box;
   for (int axis = 0; axis < 3; ++axis)
   {
-    box.min()[axis] = lattice_.coordinate(brick[axis] * kBrickSide);
-    box.max()[axis] = lattice_.coordinate((brick[axis] + side) * kBrickSide);
+    box.min()[axis] = lattice_.origin[axis] + lattice_.coordinate(brick[axis] * kBrickSide);
+    box.max()[axis] =
+      lattice_.origin[axis] + lattice_.coordinate((brick[axis] + side) * kBrickSide);
   }
   return box;
 }

@@ -29,7 +29,7 @@ std::int64_t checkedIndex(double value, double cellSize)
 
 } // namespace
 
-Lattice Lattice::covering(const Box3& bounds, double cellSize)
+Lattice Lattice::covering(const Box3& bounds, double cellSize, const Vec3& origin)
 {
   if (!(cellSize > 0.0) || !std::isfinite(cellSize))
   {
@@ -41,10 +41,13 @@ Lattice Lattice::covering(const Box3& bounds, double cellSize)
   }
   Lattice lattice;
   lattice.cellSize = cellSize;
+  lattice.origin = origin;
+  const Vec3 low = (bounds.min() - origin) / cellSize;
+  const Vec3 high = (bounds.max() - origin) / cellSize;
   for (int axis = 0; axis < 3; ++axis)
   {
-    lattice.low[axis] = checkedIndex(std::floor(bounds.min()[axis] / cellSize), cellSize);
-    lattice.high[axis] = checkedIndex(std::ceil(bounds.max()[axis] / cellSize), cellSize);
+    lattice.low[axis] = checkedIndex(std::floor(low[axis]), cellSize);
+    lattice.high[axis] = checkedIndex(std::ceil(high[axis]), cellSize);
   }
   return lattice;
 }

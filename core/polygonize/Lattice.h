@@ -21,7 +21,7 @@ struct Lattice
 
   /// The part that covers `bounds`, rounded outwards.
   /// \throws InvalidParameter, TooLarge as polygonize(). \pre bounds not empty.
-  static Lattice covering(const Box3& bounds, double cellSize);
+  static Lattice covering(const Box3& bounds, double cellSize, const Vec3& origin = Vec3::Zero());
 
   /// From the origin. Always this product, so that equal indices are equal numbers.
   double coordinate(std::int64_t index) const { return static_cast<double>(index) * cellSize; }

@@ -34,12 +34,12 @@ constexpr double kOffShare = 1.0;
 constexpr double kLeastCrease = 0.2;
 constexpr double kLeastCurve = 0.3;
 constexpr double kLeastRise = 0.15; // first guess of a height that may be that of a curve
-constexpr double kFarthest = 2.0;
+constexpr double kFarthest = 4.0;
 constexpr double kOnSurface = 1e-6;
 constexpr double kReach = 0.3;       // in which the surface is looked for near a crease,
-constexpr double kRise = 2.0;        // and over a site without one
+constexpr double kRise = 4.0;        // and over a site without one
 constexpr double kLeastHeight = 0.1; // of the triangles around the point
-constexpr double kMargin = 4.0;
+constexpr double kMargin = 6.0;
 constexpr double kGroup = 32.0; // side of the cubes whose sites are looked at together
 
 /// The sites of one task, which lie together.

@@ -135,9 +135,7 @@ private:
         for (unsigned x = 0; x < kBrickSide; ++x)
         {
           const std::size_t k = pointOf(x, y, z);
-          points.x[k] = lattice_.coordinate(first[0] + x);
-          points.y[k] = lattice_.coordinate(first[1] + y);
-          points.z[k] = lattice_.coordinate(first[2] + z);
+          points.set(k, lattice_.point({ first[0] + x, first[1] + y, first[2] + z }));
         }
       }
     }
@@ -495,7 +493,7 @@ TriangleMesh polygonize(const FieldSource& field, const Box3& bounds,
   {
     return {};
   }
-  const Lattice lattice = Lattice::covering(bounds, options.cellSize);
+  const Lattice lattice = Lattice::covering(bounds, options.cellSize, options.origin);
   return Polygonizer(field, lattice, { options.maxBytes, options.cellSize }, progress).run();
 }
 

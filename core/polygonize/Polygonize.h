@@ -15,6 +15,8 @@ struct PolygonizeOptions
   /// Side of a lattice cell, world units, finite and > 0. Edges of the mesh are at most sqrt(3) and
   /// on average 0.95 of it.
   double cellSize = 0.0;
+  /// Of the lattice; within one cell of the world's.
+  Vec3 origin = Vec3::Zero();
   /// Memory the work and the mesh may take together.
   std::size_t maxBytes = std::size_t(8) << 30;
 };
@@ -23,9 +25,9 @@ struct PolygonizeOptions
 /// crossed bricks of a lattice.
 ///
 /// The lattice is the same for the whole world: its points are the integer multiples of the cell
-/// size, so that meshes of different boxes share lattice points bit for bit. Only bricks that the
-/// range of the field cannot exclude are sampled, each with the field specialised to it, so time
-/// and memory grow with the surface and not with the volume.
+/// size, from the origin, so that meshes of different boxes share lattice points bit for bit. Only
+/// bricks that the range of the field cannot exclude are sampled, each with the field specialised
+/// to it, so time and memory grow with the surface and not with the volume.
 ///
 /// The result is a closed, outward oriented 2-manifold, at edges and at points, for every field,
 /// even a discontinuous one, because each lattice point has one side and cells agree on their

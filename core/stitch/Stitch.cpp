@@ -21,7 +21,7 @@ namespace
 constexpr std::size_t kRememberedBytes = std::size_t(256) << 20;
 
 // Around the cells, within which all that an island asks of the field lies.
-constexpr double kMargin = 3.0;
+constexpr double kMargin = 5.0;
 
 // As in makePatch(), over all islands.
 constexpr double kBytesPerBrick = 20000.0;
