@@ -271,16 +271,16 @@ private:
     All
   };
 
-  /// Asks the terms anew for a block, and drops those that do not reach it.
+  /// Asks the terms anew for a block, and drops those that do not reach it. Those that do are
+  /// narrowed to large blocks.
   Answer look(Block& block, Search& search) const
   {
-    const bool forSurface = block.side >= kSurfaceBlock;
-    const Box3 box = this->boxOf(block, forSurface ? kSurfaceMargin : 0.0);
+    const Box3 box = this->boxOf(block, kSurfaceMargin);
     search.possible.clear();
     search.certain.clear();
     search.ranges.clear();
     std::size_t left = 0;
-    bool surface = !forSurface;
+    bool surface = false;
     bool dropped = false;
     for (std::size_t k = 0; k < block.reach.size(); ++k)
     {
@@ -290,18 +290,20 @@ private:
       {
         return Answer::None; // whatever the meshes say, which takes long
       }
-      if (forSurface || !reach.certain)
+      if (block.side >= kBrickSide && !Marker::narrow(reach, box, search))
       {
-        const Interval range = reach.source->range(box);
-        if (range.min == 0.0 && range.max == 0.0)
-        {
-          dropped = true;
-          continue;
-        }
-        reach.certain = range.min > 0.0 || range.max < 0.0;
-        search.ranges.push_back({ term.weight * range.min, term.weight * range.max });
-        surface = surface || (term.kept && Marker::crosses(range));
+        dropped = true;
+        continue;
       }
+      const Interval range = reach.source->range(box);
+      if (range.min == 0.0 && range.max == 0.0)
+      {
+        dropped = true;
+        continue;
+      }
+      reach.certain = range.min > 0.0 || range.max < 0.0;
+      search.ranges.push_back({ term.weight * range.min, term.weight * range.max });
+      surface = surface || (term.kept && Marker::crosses(range));
       search.possible.push_back(reach.term);
       if (reach.certain)
       {
@@ -319,6 +321,46 @@ private:
       return Answer::None;
     }
     return interaction_.marks(terms_, search.certain) ? Answer::All : Answer::Open;
+  }
+
+  /// \return whether the term is there at all.
+  static bool narrow(Reach& reach, const Box3& box, Search& search)
+  {
+    FieldSourcePtr source = reach.source->restrictedTo(box);
+    reach.source = source.get();
+    search.sources.push_back(std::move(source));
+    return reach.source != nullptr;
+  }
+
+  /// Whether a cell is marked, as far as the ranges of the terms tell. A surface is near.
+  bool marksCell(const Block& cell, Search& search) const
+  {
+    search.possible.clear();
+    for (const Reach& reach : cell.reach)
+    {
+      if (reach.certain)
+      {
+        search.possible.push_back(reach.term);
+      }
+    }
+    const Box3 box = this->boxOf(cell, 0.0);
+    bool marks = interaction_.marks(terms_, search.possible);
+    for (std::size_t k = 0; k < cell.reach.size() && !marks; ++k)
+    {
+      const Reach& reach = cell.reach[k];
+      if (!reach.certain && this->mayBeThere(reach, box))
+      {
+        search.possible.push_back(reach.term);
+        marks = interaction_.marks(terms_, search.possible);
+      }
+    }
+    return marks;
+  }
+
+  static bool mayBeThere(const Reach& reach, const Box3& box)
+  {
+    const Interval range = reach.source->range(box);
+    return range.min != 0.0 || range.max != 0.0;
   }
 
   /// With all terms from number `next` on.
@@ -347,23 +389,6 @@ private:
     child.reach = block.reach;
   }
 
-  /// Specialises the terms to a block.
-  void narrow(Block& block, Search& search) const
-  {
-    const Box3 box = this->boxOf(block, kSurfaceMargin);
-    std::size_t left = 0;
-    for (Reach reach : block.reach)
-    {
-      if (FieldSourcePtr source = reach.source->restrictedTo(box))
-      {
-        reach.source = source.get();
-        search.sources.push_back(std::move(source));
-        block.reach[left++] = reach;
-      }
-    }
-    block.reach.resize(left);
-  }
-
   bool areTooMany() const { return count_ > mostCells_; }
 
   /// \param level of its children.
@@ -373,20 +398,24 @@ private:
     {
       return;
     }
-    const Answer answer = this->look(block, search);
+    Answer answer = Answer::All;
+    if (block.side >= kSurfaceBlock)
+    {
+      answer = this->look(block, search);
+    }
+    else if (!this->marksCell(block, search))
+    {
+      answer = Answer::None;
+    }
     if (answer == Answer::None)
     {
       return;
     }
-    if (block.side == 1 || (answer == Answer::All && block.side <= kSurfaceBlock))
+    if (answer == Answer::All && block.side <= kSurfaceBlock)
     {
       search.cells.insertBlock(block.low, static_cast<int>(block.side));
       count_ += static_cast<std::size_t>(block.side * block.side * block.side);
       return;
-    }
-    if (block.side >= kBrickSide)
-    {
-      this->narrow(block, search);
     }
     Block& child = search.blocks[level];
     for (int n = 0; n < 8; ++n)

@@ -15,16 +15,17 @@ namespace hybridtree
 namespace
 {
 
-// Shares of the way from the point to the corners at which the field is asked.
-constexpr double kWays[] = { 1.0, 0.5, 0.2, 0.1, 0.02 };
+// Shares of the way from the point to the corners at which the field is asked. On the surface
+// itself the side of a mesh is dear to tell, so not quite from the corners.
+constexpr double kWays[] = { 0.95, 0.5, 0.2, 0.1, 0.02 };
 constexpr int kSteps = 5;
 constexpr int kShifting = 2; // the step after which it moves along the crease no more,
 constexpr int kJudging = 3;  // and the one at which it must look like a crease
 
 // Between corners whose normals are no further apart than the first, steps no larger than the
 // second are no crease. Radians.
-constexpr double kRoundAngle = 0.7;
-constexpr double kRoundStep = 0.3;
+constexpr double kRoundAngle = 1.05;
+constexpr double kRoundStep = 0.4;
 constexpr std::size_t kBetween = 3; // places on the way
 
 constexpr double kLeastShare = 0.5; // of the angle between the corners' normals that is left there
@@ -144,7 +145,7 @@ private:
       {
         const TouchingPlane plane =
           TouchingPlane::of(points.points()[next], values[next], gradients.points()[next]);
-        if (way < 1.0 && !search.isJudged &&
+        if (!search.isJudged && !search.planes[k].normal.isZero(0.0) &&
           (k == search.widest.first || k == search.widest.second))
         {
           search.mostTurn =

@@ -12,7 +12,9 @@ namespace
 {
 
 constexpr int kProbes = 6; // to each side, each four times as far as the one before
-constexpr int kBisections = 18;
+constexpr int kMostSteps = 30;
+constexpr double kNarrow = 4e-6;    // of the reach, between two sides: near enough
+constexpr double kOnSurface = 1e-7; // of the larger excess at the ends of the first bracket
 
 /// All searches of moveToSurface(), in step.
 class SurfaceSearch
@@ -30,10 +32,11 @@ public:
     {
       left.push_back(k);
     }
-    const std::vector<bool> inside = this->sidesAt(left);
+    const std::vector<double> excess = this->excessOf(left);
     for (std::size_t k = 0; k < moves_.size(); ++k)
     {
-      ways_[k].inside = inside[k];
+      ways_[k].inside = excess[k] >= 0.0;
+      ways_[k].last[0] = ways_[k].last[1] = excess[k];
       moves_[k].found = false;
     }
     for (int probe = 1; probe <= kProbes; ++probe)
@@ -46,7 +49,7 @@ public:
         ways_[k].low = step;
       }
     }
-    this->bisect();
+    this->narrow();
   }
 
 private:
@@ -55,23 +58,23 @@ private:
   {
     double low = 0.0;
     double high = 0.0;
-    double at = 0.0; ///< to be asked
+    double at = 0.0;     ///< to be asked
+    double last[2] = {}; ///< excess at the last probe ahead, and behind
+    double atLow = 0.0;  ///< excess there, or a share of it: see narrow()
+    double atHigh = 0.0;
+    double onSurface = 0.0; ///< an excess as small as this
     bool inside = false;
+    bool lowMoved = false; ///< by the last step
   };
 
-  std::vector<bool> sidesAt(const std::vector<std::size_t>& chosen) const
+  std::vector<double> excessOf(const std::vector<std::size_t>& chosen) const
   {
     std::vector<Vec3> points;
     for (const std::size_t k : chosen)
     {
       points.push_back(moves_[k].point + ways_[k].at * moves_[k].direction);
     }
-    std::vector<bool> inside;
-    for (const double excess : excessAt(field_, points))
-    {
-      inside.push_back(excess >= 0.0);
-    }
-    return inside;
+    return excessAt(field_, points);
   }
 
   /// Takes out those that have found another side there.
@@ -81,50 +84,85 @@ private:
     {
       ways_[k].at = at;
     }
-    const std::vector<bool> inside = this->sidesAt(left);
+    const std::vector<double> excess = this->excessOf(left);
     std::size_t kept = 0;
     for (std::size_t n = 0; n < left.size(); ++n)
     {
       const std::size_t k = left[n];
-      if (inside[n] == ways_[k].inside)
+      Way& way = ways_[k];
+      double& last = way.last[at < 0.0];
+      if ((excess[n] >= 0.0) == way.inside)
       {
         left[kept++] = k;
-        continue;
       }
-      moves_[k].found = true;
-      ways_[k].low = std::copysign(ways_[k].low, at);
-      ways_[k].high = at;
+      else
+      {
+        moves_[k].found = true;
+        way.low = std::copysign(way.low, at);
+        way.high = at;
+        way.atLow = last;
+        way.atHigh = excess[n];
+        way.onSurface = kOnSurface * std::max(std::abs(last), std::abs(excess[n]));
+      }
+      last = excess[n];
     }
     left.resize(kept);
   }
 
-  void bisect()
+  /// By regula falsi, in which an end that stays twice counts half (Illinois), and now and then by
+  /// halves: fields may jump.
+  void narrow()
   {
-    std::vector<std::size_t> found;
+    std::vector<std::size_t> open;
     for (std::size_t k = 0; k < moves_.size(); ++k)
     {
       if (moves_[k].found)
       {
-        found.push_back(k);
+        open.push_back(k);
       }
     }
-    for (int step = 0; step < kBisections; ++step)
+    for (int step = 1; step <= kMostSteps && !open.empty(); ++step)
     {
-      for (const std::size_t k : found)
+      for (const std::size_t k : open)
       {
-        ways_[k].at = 0.5 * (ways_[k].low + ways_[k].high);
+        Way& way = ways_[k];
+        const double share = way.atLow / (way.atLow - way.atHigh);
+        const bool halves = step % 4 == 0 || !(share > 0.0 && share < 1.0);
+        way.at = way.low + (halves ? 0.5 : share) * (way.high - way.low);
       }
-      const std::vector<bool> inside = this->sidesAt(found);
-      for (std::size_t n = 0; n < found.size(); ++n)
+      const std::vector<double> excess = this->excessOf(open);
+      std::size_t kept = 0;
+      for (std::size_t n = 0; n < open.size(); ++n)
       {
-        Way& way = ways_[found[n]];
-        (inside[n] == way.inside ? way.low : way.high) = way.at;
+        const std::size_t k = open[n];
+        if (!this->take(excess[n], ways_[k]))
+        {
+          open[kept++] = k;
+        }
       }
+      open.resize(kept);
     }
-    for (const std::size_t k : found)
+    for (std::size_t k = 0; k < moves_.size(); ++k)
     {
-      moves_[k].point += 0.5 * (ways_[k].low + ways_[k].high) * moves_[k].direction;
+      if (moves_[k].found)
+      {
+        moves_[k].point += ways_[k].at * moves_[k].direction;
+      }
     }
+  }
+
+  /// \return whether that is near enough.
+  bool take(double excess, Way& way) const
+  {
+    const bool movesLow = (excess >= 0.0) == way.inside;
+    (movesLow ? way.low : way.high) = way.at;
+    (movesLow ? way.atLow : way.atHigh) = excess;
+    if (movesLow == way.lowMoved)
+    {
+      (movesLow ? way.atHigh : way.atLow) *= 0.5;
+    }
+    way.lowMoved = movesLow;
+    return std::abs(excess) <= way.onSurface || std::abs(way.high - way.low) <= kNarrow * reach_;
   }
 
   const FieldSource& field_;

@@ -322,12 +322,42 @@ struct Halo
   }
 };
 
+/// Whether forEachDiagonal() has anything to visit: a row of cells at a time.
+bool hasDiagonal(const Halo& halo)
+{
+  unsigned found = 0;
+  for (int z = 1; z <= kBrickSide; ++z)
+  {
+    for (int y = 1; y <= kBrickSide; ++y)
+    {
+      const unsigned row = halo.rows[z][y];
+      const unsigned next = halo.rows[z][y + 1];
+      const unsigned above = halo.rows[z + 1][y];
+      const auto meet = [](unsigned a, unsigned across, unsigned first, unsigned second)
+      { return a & across & ~first & ~second; };
+      for (const int step : { -1, 1 })
+      {
+        const unsigned beside = halo.rows[z][y + step];
+        const auto shifted = [step](unsigned r) { return step > 0 ? r >> 1 : r << 1; };
+        found |= meet(row, halo.rows[z + step][y + 1], next, halo.rows[z + step][y]);
+        found |= meet(row, shifted(above), above, shifted(row));
+        found |= meet(row, beside >> 1, row >> 1, beside);
+      }
+    }
+  }
+  return (found & 0x1feu) != 0;
+}
+
 /// Visits the contacts of a brick's cells across edges, without a third cell: with a cell that
 /// mends them. Two of the four diagonals; the others are seen from the other cell.
 template <typename Visit>
 void forEachDiagonal(const CellSet& cells, const CellSet::Brick& brick, Visit&& visit)
 {
   const Halo halo(cells, brick.index);
+  if (!hasDiagonal(halo))
+  {
+    return;
+  }
   for (int n = 0; n < kBrickPoints; ++n)
   {
     const std::array<int, 3> cell{ n % kBrickSide, n / kBrickSide % kBrickSide,

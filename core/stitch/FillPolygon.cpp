@@ -70,7 +70,9 @@ double badness(const Place& a, const Place& b, const Place& c)
   std::sort(squared, squared + 3);
   const double scale = 2.0 * std::sqrt(squared[1] * squared[2]);
   const double cosine = scale > 0.0 ? (squared[1] + squared[2] - squared[0]) / scale : 1.0;
-  return std::pow(std::max(cosine, 0.0), 8);
+  const double positive = std::max(cosine, 0.0);
+  const double fourth = positive * positive * positive * positive;
+  return fourth * fourth;
 }
 
 /// One border without holes.
@@ -86,6 +88,11 @@ public:
   void fill()
   {
     constexpr std::size_t kMostOptimal = 24;
+    if (border_.size() == 3)
+    {
+      triangles_.push_back({ border_[0], border_[1], border_[2] });
+      return;
+    }
     border_.size() <= kMostOptimal ? this->fillBest() : this->clipEars();
   }
 
