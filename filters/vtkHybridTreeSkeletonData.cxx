@@ -123,6 +123,30 @@ void readCells(vtkCellArray* cells, GraphPoints& points, std::vector<std::array<
   }
 }
 
+/// Without cells of too few points, of which VTK would make elements of points that are not there.
+void dropShortCells(vtkPolyData* data)
+{
+  const auto kept = [](vtkCellArray* cells, vtkIdType least)
+  {
+    auto result = vtkSmartPointer<vtkCellArray>::New();
+    const auto iterator = vtk::TakeSmartPointer(cells->NewIterator());
+    for (iterator->GoToFirstCell(); !iterator->IsDoneWithTraversal(); iterator->GoToNextCell())
+    {
+      vtkIdType size;
+      const vtkIdType* ids;
+      iterator->GetCurrentCell(size, ids);
+      if (size >= least)
+      {
+        result->InsertNextCell(size, ids);
+      }
+    }
+    return result;
+  };
+  data->SetLines(kept(data->GetLines(), 2));
+  data->SetPolys(kept(data->GetPolys(), 3));
+  data->SetStrips(kept(data->GetStrips(), 3));
+}
+
 template <std::size_t N>
 void writeCells(const std::vector<std::array<int, N>>& elements, vtkCellArray* cells)
 {
@@ -174,7 +198,12 @@ SkeletonGraph toSkeleton(vtkPolyData* input, const std::string& radiusArray, dou
   }
   vtkNew<vtkTriangleFilter> split; // polylines into segments, polygons and strips into triangles
   vtkNew<vtkPolyData> whole;
-  whole->ShallowCopy(input);
+  whole->SetPoints(input->GetPoints());
+  whole->GetPointData()->ShallowCopy(input->GetPointData());
+  whole->SetLines(input->GetLines());
+  whole->SetPolys(input->GetPolys());
+  whole->SetStrips(input->GetStrips());
+  dropShortCells(whole);
   split->SetInputData(whole);
   split->PassVertsOff();
   split->Update();

@@ -19,6 +19,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <utility>
@@ -200,6 +201,34 @@ TEST(SubdivisionSkeleton, PiecesAtTheSamePlaceHangTogether)
   expectSolid(shape->GetOutput());
   const TriangleMesh mesh = trianglesOf(shape->GetOutput());
   EXPECT_EQ(checkMesh(mesh).components, 1);
+}
+
+TEST(SubdivisionSkeleton, CellsOfTooFewPointsDoNotCount)
+{
+  vtkNew<vtkHybridTreeSkeletonEditor> editor;
+  drawPlant(editor);
+  editor->Update();
+  vtkNew<vtkPolyData> plant;
+  plant->ShallowCopy(editor->GetOutput());
+  vtkNew<vtkHybridTreeSubdivisionSkeleton> skeleton;
+  skeleton->SetInputData(plant);
+  skeleton->Update();
+  const vtkIdType count = skeleton->GetOutput()->GetNumberOfPoints();
+  const vtkIdType ids[2] = { 0, 1 };
+  vtkNew<vtkCellArray> lines, polygons;
+  for (int size = 0; size < 3; ++size)
+  {
+    polygons->InsertNextCell(size, ids);
+    lines->InsertNextCell(std::min(size, 1), ids);
+  }
+  lines->Append(plant->GetLines());
+  polygons->Append(plant->GetPolys());
+  plant->SetLines(lines);
+  plant->SetPolys(polygons);
+  skeleton->Modified();
+  skeleton->Update();
+  EXPECT_GT(count, 100);
+  EXPECT_EQ(skeleton->GetOutput()->GetNumberOfPoints(), count);
 }
 
 TEST(SubdivisionSkeleton, BlendsWithoutAMeshOfItsOwn)
