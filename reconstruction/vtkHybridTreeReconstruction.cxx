@@ -39,6 +39,7 @@
 namespace
 {
 
+constexpr double kAutomaticTolerance = 1e-3; // in longest sides of the bounds
 constexpr const char* kNormals = "Normals";
 constexpr const char* kPointIds = "PointIds";
 
@@ -78,6 +79,16 @@ std::vector<hybridtree::Vec3> readNormals(
     }
   }
   return normals;
+}
+
+double automaticTolerance(const std::vector<hybridtree::Vec3>& points)
+{
+  hybridtree::Box3 bounds;
+  for (const hybridtree::Vec3& point : points)
+  {
+    bounds.extend(point);
+  }
+  return bounds.isEmpty() ? 0.0 : kAutomaticTolerance * bounds.sizes().maxCoeff();
 }
 
 int pointType(vtkDataSet* input)
@@ -263,7 +274,7 @@ void vtkHybridTreeReconstruction::Reconstruct(vtkDataSet* input, vtkPolyData* ou
   switch (this->LevelOfDetail)
   {
     case TOLERANCE:
-      detail.tolerance = this->Tolerance;
+      detail.tolerance = this->Tolerance == 0.0 ? automaticTolerance(points) : this->Tolerance;
       break;
     case TARGET_VERTICES:
       detail.vertices = static_cast<std::size_t>(this->TargetVertices);

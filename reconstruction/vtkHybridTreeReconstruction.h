@@ -160,8 +160,9 @@ public:
 
   ///@{
   /**
-   * For TOLERANCE: greatest distance of an input point to the surface, world units, > 0, default
-   * 0.01. A warning tells of points that stay farther off whatever is done.
+   * For TOLERANCE: greatest distance of an input point to the surface, world units, >= 0. 0 (default)
+   * stands for a thousandth of the longest side of the points' bounds. A warning tells of points
+   * that stay farther off whatever is done.
    */
   vtkSetMacro(Tolerance, double);
   vtkGetMacro(Tolerance, double);
@@ -246,7 +247,7 @@ protected:
   bool UseNormals = true;
   double SmoothingRadius = 0.0;
   int LevelOfDetail = ALL_POINTS;
-  double Tolerance = 0.01;
+  double Tolerance = 0.0;
   int TargetVertices = 30000;
   double DetailLevel = 0.25;
   bool RefineRegion = false;
