@@ -6,6 +6,7 @@
 #include "reconstruction/Front.h"
 #include "reconstruction/Holes.h"
 #include "reconstruction/Regions.h"
+#include "reconstruction/SheetSides.h"
 #include "reconstruction/Sides.h"
 #include "reconstruction/SolidBoundary.h"
 #include "reconstruction/SolidRepair.h"
@@ -283,7 +284,8 @@ std::vector<std::uint8_t> convectSolid(const Tetrahedralization& tetrahedra,
   if (normals)
   {
     Solid inside = bySides(0.1, 1.0);
-    if (!solidIsMissing(tetrahedra, inside))
+    if (!solidIsMissing(tetrahedra, inside) &&
+      share(usedBy(tetrahedra, inside, progress)) >= kFewUsed)
     {
       return inside;
     }
@@ -329,7 +331,22 @@ std::vector<std::uint8_t> convectSheet(const Tetrahedralization& tetrahedra,
 {
   const FacetSize sizes(tetrahedra, progress);
   const SideOptions sides{ kWide, options.pocketFactor, true, kPolesOfHoles, normals };
-  return solidBySides(tetrahedra, sizes, sides, options.openPockets, progress);
+  const Voids voids = normals ? Voids::Kept : Voids::Filled;
+  const std::vector<Region> regions = findSides(tetrahedra, sizes, sides, progress);
+  Front front(tetrahedra, sizes, regions);
+  front.run(options.openPockets, voids, progress);
+  std::vector<std::uint8_t> inside = front.inside();
+  repairSheet(tetrahedra, inside, voids, progress);
+  return inside;
+}
+
+std::vector<std::uint8_t> sheetByBalls(
+  const Tetrahedralization& tetrahedra, SiteNormals normals, const Progress& progress)
+{
+  const FacetSize sizes(tetrahedra, progress);
+  std::vector<std::uint8_t> inside = findSheetByBalls(tetrahedra, sizes, normals, progress);
+  repairSheet(tetrahedra, inside, normals ? Voids::Kept : Voids::Filled, progress);
+  return inside;
 }
 
 void setAreaNormals(TriangleMesh& mesh)

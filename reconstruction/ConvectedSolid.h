@@ -41,6 +41,10 @@ std::vector<std::uint8_t> convectSolid(const Tetrahedralization& tetrahedra,
 std::vector<std::uint8_t> convectSheet(const Tetrahedralization& tetrahedra,
   const ConvectionOptions& options, SiteNormals normals, const Progress& progress);
 
+/// The same where sizes of facets do not tell: by the empty balls alone (SheetSides.h).
+std::vector<std::uint8_t> sheetByBalls(
+  const Tetrahedralization& tetrahedra, SiteNormals normals, const Progress& progress);
+
 /// Normals of the mesh's points, weighted by area.
 void setAreaNormals(TriangleMesh& mesh);
 

@@ -2,7 +2,6 @@
 #include "reconstruction/Convection.h"
 
 #include "reconstruction/ConvectedSolid.h"
-#include "reconstruction/EstimateNormals.h"
 #include "reconstruction/Holes.h"
 #include "reconstruction/SolidBoundary.h"
 #include "reconstruction/SpatialOrder.h"
@@ -11,6 +10,8 @@
 #include "core/mesh/MeshChecks.h"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 namespace hybridtree
 {
@@ -45,44 +46,85 @@ void appendBoundary(const Tetrahedralization& tetrahedra, const std::vector<std:
 // Above this share of the points a sheet is taken as it is, without looking for a better one.
 constexpr double kNearlyAll = 0.99;
 
-ReconstructedSurface sheetBy(const Tetrahedralization& tetrahedra, const ConvectionOptions& options,
-  SiteNormals normals, const Progress& progress)
+ReconstructedSurface sheetAround(const Tetrahedralization& tetrahedra,
+  const std::vector<std::uint8_t>& inside, double holeFactor, const Progress& progress)
 {
   ReconstructedSurface sheet;
-  appendBoundary(tetrahedra, convectSheet(tetrahedra, options, normals, progress), sheet, progress);
-  openHoles(sheet, tetrahedra.points(), options.holeFactor, progress);
+  appendBoundary(tetrahedra, inside, sheet, progress);
+  openHoles(sheet, tetrahedra.points(), holeFactor, progress);
   return sheet;
 }
 
-// Clearly more points in no more pieces, or anything where nothing is.
-bool isBetter(const ReconstructedSurface& sheet, const ReconstructedSurface& than)
+// Clearly more points, and half of the others at least, or anything where nothing is.
+bool isBetter(
+  const ReconstructedSurface& sheet, const ReconstructedSurface& than, std::size_t points)
 {
-  constexpr double kMore = 1.01;
-  return double(sheet.pointIds.size()) > kMore * double(than.pointIds.size()) &&
-    (than.mesh.triangles.empty() ||
-      checkMesh(sheet.mesh).components <= checkMesh(than.mesh).components);
+  constexpr double kMore = 1.005;
+  constexpr double kFewerLeft = 0.5;
+  const auto now = double(sheet.pointIds.size());
+  const auto before = double(than.pointIds.size());
+  return than.mesh.triangles.empty() ||
+    (now > kMore * before && double(points) - now < kFewerLeft * (double(points) - before));
 }
 
 // Sizes tell sides where most of a solid is there. What lies open on both sides, as a landscape,
-// has no inside that they could see, but it is mostly smooth: there normals can be estimated.
+// has no inside that they could see: there the empty balls are asked.
 ReconstructedSurface bestSheet(const Tetrahedralization& tetrahedra,
   const ConvectionOptions& options, SiteNormals normals, const Progress& progress)
 {
-  const std::vector<Vec3>& points = tetrahedra.points();
-  ReconstructedSurface sheet =
-    sheetBy(tetrahedra, options, normals, ProgressPart(progress, 0.0, 0.5));
-  if (normals || double(sheet.pointIds.size()) >= kNearlyAll * double(points.size()))
-  {
-    return sheet;
-  }
-  const std::vector<Vec3> estimated = estimateNormals(points, ProgressPart(progress, 0.5, 0.6));
-  if (estimated.empty())
+  const std::size_t points = tetrahedra.points().size();
+  ReconstructedSurface sheet = sheetAround(tetrahedra,
+    convectSheet(tetrahedra, options, normals, ProgressPart(progress, 0.0, 0.5)),
+    options.holeFactor, progress);
+  if (double(sheet.pointIds.size()) >= kNearlyAll * double(points))
   {
     return sheet;
   }
   ReconstructedSurface other =
-    sheetBy(tetrahedra, options, &estimated, ProgressPart(progress, 0.6, 1.0));
-  return isBetter(other, sheet) ? other : sheet;
+    sheetAround(tetrahedra, sheetByBalls(tetrahedra, normals, ProgressPart(progress, 0.5, 1.0)),
+      options.holeFactor, progress);
+  return isBetter(other, sheet, points) ? other : sheet;
+}
+
+// Whether an open surface looks inward from the middle of its points or, where that does not tell,
+// as of a landscape, down the axis that most of it looks along. Of a closed one it says no.
+bool looksInward(const TriangleMesh& mesh)
+{
+  constexpr double kTelling = 0.2; // share of the surface's moment about the middle
+  constexpr double kOpen = 0.01;   // share of the area that does not cancel
+  Vec3 middle = Vec3::Zero();
+  for (const Vec3& point : mesh.points)
+  {
+    middle += point / double(mesh.points.size());
+  }
+  double outward = 0.0;
+  double reach = 0.0;
+  double area = 0.0;
+  Vec3 way = Vec3::Zero();
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+  {
+    const Vec3 normal = areaNormal(mesh, t);
+    const Vec3 arm = mesh.points[mesh.triangles[t][0]] - middle;
+    outward += normal.dot(arm);
+    reach += normal.norm() * arm.norm();
+    area += normal.norm();
+    way += normal;
+  }
+  int axis = 0;
+  way.cwiseAbs().maxCoeff(&axis);
+  return std::abs(outward) > kTelling * reach ? outward < 0.0 : way[axis] < -kOpen * area;
+}
+
+// What nobody has said which way it looks.
+void turnOutward(TriangleMesh& mesh)
+{
+  if (looksInward(mesh))
+  {
+    for (Triangle& triangle : mesh.triangles)
+    {
+      std::swap(triangle[1], triangle[2]);
+    }
+  }
 }
 
 // Through which points the sheet goes, if it finds one; else the boundary of the solid.
@@ -93,6 +135,10 @@ ReconstructedSurface convect(const Tetrahedralization& tetrahedra, const Convect
   if (!options.closeHoles)
   {
     surface = bestSheet(tetrahedra, options, normals, progress);
+    if (!normals)
+    {
+      turnOutward(surface.mesh);
+    }
     if (2 * surface.pointIds.size() > tetrahedra.points().size())
     {
       return surface;

@@ -66,7 +66,8 @@ struct ReconstructedSurface
 /// - the few vertices where it meets itself are mended to a manifold at the end by passing or
 ///   taking back single tetrahedra (SolidRepair.h).
 /// Without closeHoles the flow starts from that part of the hull that is of the outside's colour
-/// (Regions.h), which need not be all of it: so it comes to one side of a sheet only.
+/// (Regions.h), which need not be all of it: so it comes to one side of a sheet only. Where points
+/// are left out, the empty balls tell the sides of the sheet (SheetSides.h).
 /// A cavity that is closed off all around (unless normals tell of it), and a hole or wall about as
 /// thin as the points are far apart, may be lost.
 ///

@@ -12,6 +12,12 @@ namespace hybridtree
 namespace
 {
 
+enum class Infinity : std::uint8_t
+{
+  Held, // infinite cells stay as they are
+  Free
+};
+
 constexpr int kMostFlips = 6;
 // How many steps between two looks at whether to go on.
 constexpr std::size_t kBreath = 65536;
@@ -28,10 +34,11 @@ class SolidRepair
 {
 public:
   SolidRepair(const Tetrahedralization& tetrahedra, std::vector<std::uint8_t>& inside, Voids voids,
-    const Progress& progress)
+    Infinity infinity, const Progress& progress)
     : tetrahedra_(tetrahedra)
     , inside_(inside)
     , voids_(voids)
+    , infinity_(infinity)
     , progress_(progress)
     , unseen_(inside.size(), 0)
     , flips_(inside.size(), 0)
@@ -76,6 +83,10 @@ private:
   std::size_t countClumps(std::int32_t vertex);
   bool onSurface(std::int32_t vertex) const;
   double reach(std::int32_t cell) const;
+  bool isHeld(std::int32_t cell) const
+  {
+    return infinity_ == Infinity::Held && !tetrahedra_.finite(cell);
+  }
   void setSide(std::int32_t cell, bool inside);
   void await(std::int32_t vertex);
   void removeCrumbsAndVoids();
@@ -83,6 +94,7 @@ private:
   const Tetrahedralization& tetrahedra_;
   std::vector<std::uint8_t>& inside_;
   const Voids voids_;
+  const Infinity infinity_;
   const Progress& progress_;
   std::vector<std::uint8_t> unseen_; // all 0 between uses
   std::vector<std::int32_t> stack_;
@@ -97,16 +109,20 @@ private:
 
 double SolidRepair::reach(std::int32_t cell) const
 {
-  if (!tetrahedra_.finite(cell))
+  if (this->isHeld(cell))
   {
     return std::numeric_limits<double>::infinity();
   }
+  const auto& v = tetrahedra_.cell(cell);
   double longest = 0.0;
   for (int i = 0; i < 4; ++i)
   {
     for (int j = 0; j < i; ++j)
     {
-      const auto& v = tetrahedra_.cell(cell);
+      if (v[i] == Tetrahedralization::kInfinite || v[j] == Tetrahedralization::kInfinite)
+      {
+        continue;
+      }
       const Vec3 edge = tetrahedra_.points()[v[i]] - tetrahedra_.points()[v[j]];
       longest = std::max(longest, edge.norm());
     }
@@ -252,7 +268,7 @@ void SolidRepair::changeBest(std::int32_t vertex, const std::vector<Clump>& clum
     whole.inside = clump.inside;
     for (const std::int32_t cell : clump.cells)
     {
-      if (tetrahedra_.finite(cell))
+      if (!this->isHeld(cell))
       {
         whole.cells.push_back(cell);
         whole.reach += this->reach(cell);
@@ -307,6 +323,8 @@ long SolidRepair::gain(const Clump& clump)
   }
   std::sort(vertices.begin(), vertices.end());
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  vertices.erase(
+    std::remove(vertices.begin(), vertices.end(), Tetrahedralization::kInfinite), vertices.end());
   const auto bad = [&]
   {
     long count = 0;
@@ -342,7 +360,7 @@ void SolidRepair::fillStar(std::int32_t vertex, const std::vector<Clump>&)
 {
   for (const std::int32_t cell : tetrahedra_.star(vertex))
   {
-    if (tetrahedra_.finite(cell) && !inside_[cell])
+    if (!this->isHeld(cell) && !inside_[cell])
     {
       this->setSide(cell, true);
     }
@@ -412,7 +430,7 @@ void SolidRepair::removeCrumbsAndVoids()
   }
   for (const auto& cells : solids)
   {
-    const bool infinite = !tetrahedra_.finite(*std::max_element(cells.begin(), cells.end()));
+    const bool infinite = this->isHeld(*std::max_element(cells.begin(), cells.end()));
     if (cells.size() * kCrumb < largest && !infinite)
     {
       setSides(cells, false);
@@ -425,7 +443,13 @@ void SolidRepair::removeCrumbsAndVoids()
 std::size_t repairSolid(const Tetrahedralization& tetrahedra, std::vector<std::uint8_t>& inside,
   Voids voids, const Progress& progress)
 {
-  return SolidRepair(tetrahedra, inside, voids, progress).run();
+  return SolidRepair(tetrahedra, inside, voids, Infinity::Held, progress).run();
+}
+
+std::size_t repairSheet(const Tetrahedralization& tetrahedra, std::vector<std::uint8_t>& inside,
+  Voids voids, const Progress& progress)
+{
+  return SolidRepair(tetrahedra, inside, voids, Infinity::Free, progress).run();
 }
 
 } // namespace hybridtree

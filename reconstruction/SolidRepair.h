@@ -34,4 +34,8 @@ enum class Voids : std::uint8_t
 std::size_t repairSolid(const Tetrahedralization& tetrahedra, std::vector<std::uint8_t>& inside,
   Voids voids = Voids::Filled, const Progress& progress = Progress::none());
 
+/// The same for cells on one side of a sheet, which infinite cells are, too: these may change.
+std::size_t repairSheet(const Tetrahedralization& tetrahedra, std::vector<std::uint8_t>& inside,
+  Voids voids = Voids::Filled, const Progress& progress = Progress::none());
+
 } // namespace hybridtree
