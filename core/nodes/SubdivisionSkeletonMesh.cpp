@@ -102,31 +102,82 @@ public:
     {
       box.extend(point);
     }
-    const SubdivisionSkeleton::Reaching reaching = leaf_.elementsReaching(box);
+    const std::vector<Candidate> candidates = this->candidatesIn(box);
+    const bool isOne = std::all_of(candidates.begin(), candidates.end(),
+      [&](const Candidate& of) { return of.piece == candidates.front().piece; });
     for (std::size_t k = 0; k < points.size(); ++k)
     {
-      const Vec3 p = inverse_ * points[k];
-      double least = std::numeric_limits<double>::infinity();
-      pieces[k] = -1;
-      const auto offer = [&](double distance, std::int32_t piece)
-      {
-        pieces[k] = distance < least ? piece : pieces[k];
-        least = std::min(least, distance);
-      };
-      for (const std::size_t s : reaching.segments)
-      {
-        offer(distanceToSegment(p, leaf_.refined().segments[s]),
-          leaf_.pieces().segments[std::size_t(leaf_.refined().segmentParents[s])]);
-      }
-      for (const std::size_t t : reaching.triangles)
-      {
-        offer(distanceToTriangle(p, leaf_.refined().triangles[t]),
-          leaf_.pieces().triangles[std::size_t(leaf_.refined().triangleParents[t])]);
-      }
+      pieces[k] = candidates.empty() ? -1
+        : isOne                      ? candidates.front().piece
+                                     : this->nearest(candidates, inverse_ * points[k]);
     }
   }
 
 private:
+  // An element, and a ball around it.
+  struct Candidate
+  {
+    bool isSegment;
+    std::size_t element;
+    std::int32_t piece;
+    Vec3 center;
+    double size;
+    double radius; // the largest of the skeleton
+
+    double leastDistance(const Vec3& p) const { return ((p - center).norm() - size) / radius; }
+  };
+
+  std::vector<Candidate> candidatesIn(const Box3& box) const
+  {
+    const SubdivisionSkeleton::Reaching reaching = leaf_.elementsReaching(box);
+    std::vector<Candidate> candidates;
+    const auto add = [&](bool isSegment, std::size_t element, std::int32_t piece, auto corners)
+    {
+      Candidate of{ isSegment, element, piece, Vec3::Zero(), 0.0, 0.0 };
+      for (const std::int32_t corner : corners)
+      {
+        of.center += this->at(corner) / double(corners.size());
+        of.radius = std::max(of.radius, this->radius(corner));
+      }
+      for (const std::int32_t corner : corners)
+      {
+        of.size = std::max(of.size, (this->at(corner) - of.center).norm());
+      }
+      candidates.push_back(of);
+    };
+    const RefinedSkeleton& refined = leaf_.refined();
+    for (const std::size_t s : reaching.segments)
+    {
+      add(true, s, leaf_.pieces().segments[std::size_t(refined.segmentParents[s])],
+        refined.segments[s]);
+    }
+    for (const std::size_t t : reaching.triangles)
+    {
+      add(false, t, leaf_.pieces().triangles[std::size_t(refined.triangleParents[t])],
+        refined.triangles[t]);
+    }
+    return candidates;
+  }
+
+  std::int32_t nearest(const std::vector<Candidate>& candidates, const Vec3& p) const
+  {
+    double least = std::numeric_limits<double>::infinity();
+    std::int32_t piece = -1;
+    for (const Candidate& of : candidates)
+    {
+      if (of.leastDistance(p) >= least)
+      {
+        continue;
+      }
+      const double distance = of.isSegment
+        ? this->distanceToSegment(p, leaf_.refined().segments[of.element])
+        : this->distanceToTriangle(p, leaf_.refined().triangles[of.element]);
+      piece = distance < least ? of.piece : piece;
+      least = std::min(least, distance);
+    }
+    return piece;
+  }
+
   const Vec3& at(std::int32_t point) const { return leaf_.refined().points[std::size_t(point)]; }
   double radius(std::int32_t point) const { return leaf_.refined().radii[std::size_t(point)]; }
 
