@@ -15,6 +15,28 @@ thread_local std::array<std::vector<std::int32_t>, 2> met;
 
 } // namespace
 
+void FarGroup::findNear()
+{
+  for (const BlendPiece& piece : pieces)
+  {
+    for (const GroupDistance& of : piece.place->distances)
+    {
+      near.push_back(of.group);
+    }
+  }
+  std::sort(near.begin(), near.end());
+  near.erase(std::unique(near.begin(), near.end()), near.end());
+  for (const BlendPiece& piece : pieces)
+  {
+    std::vector<std::uint32_t>& at = nearAt.emplace_back();
+    for (const GroupDistance& of : piece.place->distances)
+    {
+      const auto found = std::lower_bound(near.begin(), near.end(), of.group);
+      at.push_back(static_cast<std::uint32_t>(found - near.begin()));
+    }
+  }
+}
+
 bool BlendGroups::areNeighbours(std::int32_t a, std::int32_t b) const
 {
   const std::vector<std::int32_t>& others = places.neighbours[static_cast<std::size_t>(a)];

@@ -20,6 +20,12 @@ struct FarGroup
 {
   std::vector<BlendPiece> pieces;
   CauchyBound bound;
+  std::vector<std::int32_t> near; ///< groups that any piece is near, itself too, ascending
+  /// Per piece: where in `near` the groups of its place's distances are.
+  std::vector<std::vector<std::uint32_t>> nearAt;
+
+  /// Sets the two last.
+  void findNear();
 };
 
 /// Which elements of a field belong together.

@@ -19,7 +19,8 @@ struct BlendPieces
   struct Place
   {
     std::int32_t group;
-    std::vector<GroupDistance> distances; ///< from other groups, ascending: those near enough
+    std::vector<GroupDistance>
+      distances; ///< from groups, ascending: itself, 0, and those near enough
 
     /// From a group; `farthest` unless near enough.
     double from(std::int32_t other, double farthest) const;

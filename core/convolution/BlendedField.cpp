@@ -19,6 +19,7 @@ namespace
 // Points of a whole query that are handled together.
 constexpr std::size_t kPart = 64;
 constexpr std::size_t kFewPoints = 4;
+constexpr std::size_t kFewFarPoints = 32; // with the Cauchy kernel, of which everything reaches
 
 std::vector<SegmentElement> segmentsOf(const GroupedElements& elements)
 {
@@ -105,6 +106,10 @@ std::vector<FarGroup> farGroups(const ConvolutionField& pieces, const BlendPiece
   for (const TriangleElement* triangle : all.triangles)
   {
     add(triangle, { nullptr, triangle, &places.trianglePlaces[pieces.index(triangle)] });
+  }
+  for (FarGroup& group : groups)
+  {
+    group.findNear();
   }
   return groups;
 }
@@ -251,13 +256,14 @@ void BlendedField::forCompactParts(PointBatch points, Body&& body) const
   std::array<std::size_t, kPart> index;
   ScratchVectors gathered(std::min(kPart, points.size));
   const VectorBatch to = gathered.batch();
+  const std::size_t few = this->kernel().kind == KernelKind::Cauchy ? kFewFarPoints : kFewPoints;
   // Parts that are too large are halved along their longest side.
   const auto handle = [&](auto&& self, std::size_t* begin, std::size_t* end) -> void
   {
     Box3 box;
     std::for_each(begin, end, [&](std::size_t k) { box.extend(points[k]); });
     const auto count = static_cast<std::size_t>(end - begin);
-    if (count > kFewPoints && box.diagonal().norm() > partSize_)
+    if (count > few && box.diagonal().norm() > partSize_)
     {
       Eigen::Index axis;
       box.sizes().maxCoeff(&axis);

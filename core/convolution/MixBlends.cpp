@@ -2,9 +2,10 @@
 #include "core/convolution/MixBlends.h"
 
 #include "core/convolution/BlendMixture.h"
+#include "core/convolution/BlendRows.h"
+#include "core/convolution/OwnBlend.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace hybridtree
 {
@@ -91,10 +92,8 @@ public:
   void mix(double* value, const VectorBatch* gradient) const
   {
     // One sum says which others may be larger.
-    const auto first = std::max_element(sums_.begin(), sums_.end());
-    double least = 0.0;
-    this->mix({ static_cast<std::int32_t>(first - sums_.begin()) },
-      [&](BlendMixture& mixture) { least = mixture.leastBest(); });
+    const double least = this->leastOf(
+      static_cast<std::int32_t>(std::max_element(sums_.begin(), sums_.end()) - sums_.begin()));
     std::vector<std::int32_t> centers;
     for (std::size_t center = 0; center < sums_.size(); ++center)
     {
@@ -103,20 +102,36 @@ public:
         centers.push_back(static_cast<std::int32_t>(center));
       }
     }
-    this->mix(centers,
-      [&](BlendMixture& mixture)
+    const std::vector<std::int32_t> members = this->membersOf(centers);
+    std::vector<double> bounds;
+    for (const std::int32_t member : members)
+    {
+      bounds.push_back(bounds_[static_cast<std::size_t>(member)]);
+    }
+    const PiecesNear pieces(groups_, members);
+    const BlendSets sets(pieces, bounds, &centers);
+    BlendRows rows(
+      pieces, std::vector<char>(members.size(), 1), BlendRows::kMany, points_, gradient != nullptr);
+    std::vector<std::size_t> winners(points_.size, 0);
+    std::fill_n(value, points_.size, 0.0);
+    for (std::size_t set = 0;
+         set < sets.size() && sets[set].bound > *std::min_element(value, value + points_.size);
+         ++set)
+    {
+      if (this->mayBeLarger(rows, sets[set], value))
       {
-        std::vector<std::size_t> all(points_.size);
-        std::iota(all.begin(), all.end(), std::size_t(0));
-        for (const std::size_t k : all)
+        const double* sum = rows.sum(sets[set].begin, sets[set].end);
+        for (std::size_t k = 0; k < points_.size; ++k)
         {
-          value[k] = mixture.best(k);
+          winners[k] = sum[k] > value[k] ? set : winners[k];
+          value[k] = std::max(value[k], sum[k]);
         }
-        if (gradient)
-        {
-          mixture.findGradients(all, *gradient);
-        }
-      });
+      }
+    }
+    if (gradient)
+    {
+      this->findGradients(rows, sets, winners, *gradient);
+    }
   }
 
 private:
@@ -137,26 +152,80 @@ private:
     return bounds.value;
   }
 
-  template <typename Use>
-  void mix(const std::vector<std::int32_t>& centers, const Use& use) const
+  // Of the sum of one group at the points.
+  double leastOf(std::int32_t center) const
   {
-    std::vector<std::int32_t> members = centers;
+    ScratchArray value(points_.size);
+    ownBlend(
+      PiecesNear(groups_, this->membersOf({ center })), center, points_, value.data(), nullptr);
+    return *std::min_element(value.data(), value.data() + points_.size);
+  }
+
+  // Of the sums of some groups, ascending.
+  std::vector<std::int32_t> membersOf(const std::vector<std::int32_t>& centers) const
+  {
+    std::vector<char> isMember(groups_.size(), 0);
     for (const std::int32_t center : centers)
     {
-      const auto& others = groups_.places.neighbours[static_cast<std::size_t>(center)];
-      members.insert(members.end(), others.begin(), others.end());
+      isMember[static_cast<std::size_t>(center)] = 1;
+      for (const std::int32_t other : groups_.places.neighbours[static_cast<std::size_t>(center)])
+      {
+        isMember[static_cast<std::size_t>(other)] = 1;
+      }
     }
-    std::sort(members.begin(), members.end());
-    members.erase(std::unique(members.begin(), members.end()), members.end());
-    std::vector<double> bounds;
-    for (const std::int32_t member : members)
+    std::vector<std::int32_t> members;
+    for (std::size_t group = 0; group < isMember.size(); ++group)
     {
-      bounds.push_back(bounds_[static_cast<std::size_t>(member)]);
+      if (isMember[group])
+      {
+        members.push_back(static_cast<std::int32_t>(group));
+      }
     }
-    const PiecesNear pieces(groups_, members);
-    PieceFields fields(pieces, points_);
-    BlendMixture mixture(fields, bounds, &centers);
-    use(mixture);
+    return members;
+  }
+
+  // Shares are at most 1.
+  bool mayBeLarger(const BlendRows& rows, const BlendSets::Set& set, const double* best) const
+  {
+    ScratchArray sum(points_.size);
+    std::fill_n(sum.data(), points_.size, 0.0);
+    for (const std::size_t* member = set.begin; member != set.end; ++member)
+    {
+      const double* field = rows.field(*member);
+      for (std::size_t k = 0; k < points_.size; ++k)
+      {
+        sum[k] += field[k];
+      }
+    }
+    for (std::size_t k = 0; k < points_.size; ++k)
+    {
+      if (sum[k] > best[k])
+      {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  // Of the largest sums: set by set.
+  void findGradients(BlendRows& rows, const BlendSets& sets,
+    const std::vector<std::size_t>& winners, const VectorBatch& gradient) const
+  {
+    std::vector<std::size_t> winning = winners;
+    std::sort(winning.begin(), winning.end());
+    winning.erase(std::unique(winning.begin(), winning.end()), winning.end());
+    for (const std::size_t set : winning)
+    {
+      rows.sum(sets[set].begin, sets[set].end);
+      const VectorBatch slopes = rows.gradient();
+      for (std::size_t k = 0; k < points_.size; ++k)
+      {
+        if (winners[k] == set)
+        {
+          gradient.set(k, slopes[k]);
+        }
+      }
+    }
   }
 
   const BlendGroups& groups_;
