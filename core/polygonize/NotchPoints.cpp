@@ -19,6 +19,7 @@ namespace
 // be on another crease.
 constexpr double kWays[] = { 0.7, 0.4, 0.2, 0.1, 0.02 };
 constexpr int kSteps = 5;
+constexpr int kNearer = 1;   // the first step of a second search
 constexpr int kShifting = 2; // the step after which it moves along the crease no more,
 constexpr int kJudging = 3;  // and the one until which it must look like a crease
 
@@ -57,8 +58,14 @@ public:
   void run()
   {
     this->keepFar();
-    this->findCreases();
-    this->settle();
+    // Corners may be on other faces than those that meet over the middle; then what is nearer
+    // tells.
+    for (const int first : { 0, kNearer })
+    {
+      this->findCreases(first);
+      this->settle();
+      this->dropFound();
+    }
     this->rise();
   }
 
@@ -126,9 +133,16 @@ private:
   }
 
   /// One question for all sites at every step.
-  void findCreases()
+  void findCreases(int first)
   {
-    for (int step = 0; step < kSteps; ++step)
+    for (Search& search : sites_)
+    {
+      search.point = search.site->middle();
+      search.target = search.point;
+      search.wideAngle = 0.0;
+      search.isCrease = true;
+    }
+    for (int step = first; step < kSteps; ++step)
     {
       this->askAround(kWays[step]);
       for (Search& search : sites_)
@@ -138,11 +152,18 @@ private:
     }
   }
 
+  void dropFound()
+  {
+    const auto left = std::remove_if(sites_.begin(), sites_.end(),
+      [](const Search& search) { return search.result->height > 0.0; });
+    sites_.erase(left, sites_.end());
+  }
+
   /// Whether it still looks like a crease.
   bool approach(Search& search, int step) const
   {
     const double angle = this->areNear(search.planes) ? widestAngle(search.planes) : 0.0;
-    search.wideAngle = step == 0 ? angle : search.wideAngle;
+    search.wideAngle = search.wideAngle > 0.0 ? search.wideAngle : angle; // of the first step
     if (step <= kJudging && angle < std::max(kLeastAngle, kLeastShare * search.wideAngle))
     {
       return false;
@@ -276,7 +297,7 @@ private:
     std::vector<Vec3> points;
     for (const Search& search : sites_)
     {
-      if (!search.isCrease && search.result->off >= kLeastRise * cell_)
+      if (search.result->off >= kLeastRise * cell_)
       {
         const double least = search.inside ? kLeastCurve : -kLeastCurve;
         low.push_back(&search);

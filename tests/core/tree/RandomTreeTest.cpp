@@ -180,6 +180,16 @@ TEST(Corpus, SeedsThatOnceFailed)
   }
 }
 
+// Seeds with fins and grooves thinner than a cell, of which methods lost different parts.
+TEST(Corpus, MethodsThatOnceDisagreed)
+{
+  for (const std::uint64_t seed : { 584, 1510, 3505 })
+  {
+    const std::vector<TreeVerdict> verdicts = tryTree(seed, 12.0, 2000);
+    EXPECT_EQ(verdicts.size(), 1u) << "seed " << seed << "\n" << verdicts.front().text;
+  }
+}
+
 // Trees that once failed, kept as text. They have no mesh leaves.
 TEST(Corpus, TreesThatOnceFailed)
 {
