@@ -6,6 +6,7 @@
 #include "reconstruction/SolidBoundary.h"
 #include "reconstruction/SpatialOrder.h"
 #include "reconstruction/Tetrahedralization.h"
+#include "reconstruction/WorkEstimate.h"
 
 #include "core/mesh/MeshChecks.h"
 
@@ -175,7 +176,8 @@ ReconstructedSurface reconstruct(
   const std::vector<Vec3> ordered = inOrder(points, order);
   const std::vector<Vec3> normals =
     options.normals.empty() ? std::vector<Vec3>() : inOrder(options.normals, order);
-  const Tetrahedralization tetrahedra(ordered, ProgressPart(progress, 0.0, 0.6));
+  const Tetrahedralization tetrahedra(
+    ordered, ProgressPart(progress, 0.0, 0.6), mostTetrahedra(options.maxMemory));
   ReconstructedSurface surface = convect(
     tetrahedra, options, normals.empty() ? nullptr : &normals, ProgressPart(progress, 0.6, 1.0));
   for (std::int32_t& point : surface.pointIds)

@@ -327,10 +327,11 @@ void Delaunay::takeCells(Worker& worker, Cavity& cavity)
   if (worker.slab_ == 0 && cavity.cells.size() < wanted)
   {
     const std::size_t end = cells_.size() + wanted - cavity.cells.size();
-    if (end > kMostCells)
+    if (end > mostCells_)
     {
-      throw TooLarge("The points have more than " + std::to_string(kMostCells) +
-        " tetrahedra, more than can be counted: thin them by a larger Spacing.");
+      throw TooLarge("The points have more than " + std::to_string(mostCells_) +
+        " tetrahedra, more than can be kept: they may lie along curves instead of a surface. Thin "
+        "them by a larger Spacing.");
     }
     worker.nextCell = this->cellCount();
     cells_.resize(end);

@@ -6,6 +6,7 @@
 #include "core/base/Progress.h"
 #include "core/base/Types.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -91,6 +92,10 @@ public:
   /// (SpatialOrder.h). Many are inserted in parallel; the result is the same, to the numbers of the
   /// cells, for any number of threads. \pre finite. \throws Cancelled, TooLarge.
   void insert(const std::vector<Vec3>& points, const Progress& progress);
+
+  /// From here on more tetrahedra than this are too many; at most 2^29 can be counted. Points of a
+  /// surface have 7 each, those along curves each as many as there are points.
+  void limitCells(std::size_t most) { mostCells_ = std::min(most, kMostCells); }
 
   const std::vector<Vec3>& points() const { return points_; }
   bool spansVolume() const { return !cells_.empty(); }
@@ -230,6 +235,7 @@ private:
   std::vector<std::uint8_t> marks_; // per cell; between uses its slab, or 0, times kMarks
   std::vector<std::int32_t> local_; // per point: its place in locals, if there
   std::vector<std::uint8_t> slabs_; // per point, while there are some; else empty
+  std::size_t mostCells_ = kMostCells;
   int slabAxis_ = 0;
   std::vector<double> slabBorders_;
   Worker anywhere_;

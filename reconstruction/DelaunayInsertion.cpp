@@ -83,7 +83,7 @@ std::array<int, 3> Delaunay::axesBySize() const
 // Each slab by a worker of its own. \returns those that were not inserted, in the same order.
 Delaunay::Order Delaunay::insertInSlabs(const Order& order, int axis, const Progress& progress)
 {
-  if (order.size() < kMany || cells_.size() + kCellsPerPoint * order.size() > kMostCells)
+  if (order.size() < kMany || cells_.size() + kCellsPerPoint * order.size() > mostCells_)
   {
     return order;
   }

@@ -130,7 +130,7 @@ void Delaunay::provideCells(Worker& worker, std::size_t points)
 {
   const std::size_t wanted = kCellsPerPoint * points;
   const std::size_t more = wanted - std::min(wanted, worker.cellsLeft());
-  if (more == 0 || cells_.size() + more > kMostCells)
+  if (more == 0 || cells_.size() + more > mostCells_)
   {
     return;
   }

@@ -3,6 +3,7 @@
 
 #include "reconstruction/ConvectedSolid.h"
 #include "reconstruction/SpatialOrder.h"
+#include "reconstruction/WorkEstimate.h"
 
 #include "core/base/Error.h"
 
@@ -206,6 +207,7 @@ std::vector<std::int32_t> DynamicReconstruction::usedPoints() const
 void DynamicReconstruction::startAgain(const LevelOfDetail& detail, const Progress& progress)
 {
   state_ = std::make_unique<State>(points_);
+  state_->surface.limitTetrahedra(mostTetrahedra(options_.maxMemory));
   levelSteps_ = 0;
   if (!octree_)
   {

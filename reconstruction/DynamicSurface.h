@@ -104,6 +104,8 @@ public:
   /// between them that are unused.
   const std::vector<Vec3>& sites() const { return delaunay_.points(); }
 
+  /// As Delaunay::limitCells().
+  void limitTetrahedra(std::size_t most) { delaunay_.limitCells(most); }
   /// Adds points without regard to the surface. \throws Cancelled.
   void insert(const std::vector<Vec3>& points, const Progress& progress);
   /// Leaves out unused sites, and closes the gaps in their numbers. \pre setInside() comes next.

@@ -36,11 +36,13 @@ private:
 
 } // namespace
 
-Tetrahedralization::Tetrahedralization(const std::vector<Vec3>& points, const Progress& progress)
+Tetrahedralization::Tetrahedralization(
+  const std::vector<Vec3>& points, const Progress& progress, std::size_t mostCells)
   : points_(&points)
 {
   checkFinite(points);
   Delaunay delaunay;
+  delaunay.limitCells(mostCells);
   delaunay.insert(points, progress);
   this->copy(delaunay, progress);
 }

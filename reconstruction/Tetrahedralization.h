@@ -8,7 +8,9 @@
 #include "core/base/Types.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace hybridtree
@@ -30,7 +32,9 @@ public:
   /// many are fast in spatialOrder only. Of points that coincide one takes part.
   /// \throws InvalidGeometry for a coordinate that is not finite (names the point), fewer than four
   /// different points, or points that all lie in one plane. \throws Cancelled.
-  Tetrahedralization(const std::vector<Vec3>& points, const Progress& progress);
+  /// \throws TooLarge for more tetrahedra than mostCells, while they are made.
+  Tetrahedralization(const std::vector<Vec3>& points, const Progress& progress,
+    std::size_t mostCells = std::numeric_limits<std::size_t>::max());
   /// Copies one that exists, and keeps its points in sight: they must stay as they are.
   Tetrahedralization(const Delaunay& delaunay, const Progress& progress);
 

@@ -15,8 +15,8 @@ namespace hybridtree
 /// and with a level of detail to the vertices, too.
 struct WorkEstimate
 {
-  /// Memory of the process while it works, above what it had. About a third more than was measured
-  /// on surfaces; within a factor of 3.
+  /// Memory of the process while it works, above what it had, with the empty balls and normals that
+  /// are looked at where points are hidden or the surface is open. Within a factor of 3.
   double bytes = 0.0;
   /// On two cores of 2.6 GHz with nothing else to do, within a factor of 2 for all points or a
   /// number of vertices; the order of magnitude elsewhere.
@@ -25,6 +25,9 @@ struct WorkEstimate
 
 /// Of all points.
 WorkEstimate estimateWork(std::size_t points);
+
+/// How many tetrahedra fit into so many bytes of memory with all that is made of them.
+std::size_t mostTetrahedra(std::size_t bytes);
 
 /// At a level of detail. How many vertices a tolerance needs is known only afterwards: seven for
 /// each time that it goes into the diagonal of the points are taken: of scans and samples mostly

@@ -3,6 +3,7 @@
 #include "reconstruction/DynamicReconstruction.h"
 #include "reconstruction/FacetSize.h"
 #include "reconstruction/Front.h"
+#include "reconstruction/LevelOfDetail.h"
 #include "reconstruction/Regions.h"
 #include "reconstruction/Sides.h"
 #include "reconstruction/SolidRepair.h"
@@ -243,6 +244,23 @@ TEST(Convection, SaysWhatItNeedsBeforeItStarts)
     EXPECT_NE(std::string(error.what()).find("limit is 1 MiB"), std::string::npos) << error.what();
   }
   EXPECT_FALSE(reconstruct(randomSphere(100, 14), options).mesh.empty());
+}
+
+// Each point of one circle with each of another through its middle: a million tetrahedra.
+TEST(Convection, StopsWhereTetrahedraAreTooMany)
+{
+  std::vector<Vec3> circles;
+  for (int k = 0; k < 1000; ++k)
+  {
+    const double x = std::cos(0.0061 * k);
+    const double y = std::sin(0.0061 * k);
+    circles.emplace_back(x, y, 0.0);
+    circles.emplace_back(x + 1.0, 0.0, y);
+  }
+  ConvectionOptions options;
+  options.maxMemory = std::size_t(1) << 24;
+  EXPECT_THROW(reconstruct(circles, options), TooLarge);
+  EXPECT_THROW(reconstruct(circles, LevelOfDetail{ 0.0, 1900 }, options), TooLarge);
 }
 
 TEST(Convection, CanBeCancelledEverywhere)

@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
+#include <string>
 #include <vector>
 
 // AddressSanitizer has an allocator of its own, which mallinfo2 does not see.
@@ -51,15 +53,30 @@ TEST(WorkEstimate, TellsTheMemoryOfAllPointsWithinAFactorOfThree)
   std::vector<Vec3> volume(30000);
   std::generate(
     volume.begin(), volume.end(), [&] { return random.inBox(Box3(Vec3::Zero(), Vec3::Ones())); });
-  for (const std::vector<Vec3>& points :
-    { randomTorus(1.0, 0.4, 20000, 1), randomSphere(60000, 2), volume })
+  // Open, and with points that are left hidden: normals are estimated, or empty balls looked at.
+  std::vector<Vec3> waves(30000);
+  std::generate(waves.begin(), waves.end(),
+    [&]
+    {
+      const Vec3 p = random.inBox(Box3(Vec3::Zero(), Vec3::Ones()));
+      return Vec3(p.x(), p.y(), 0.05 * std::sin(20.0 * p.x()) * std::cos(17.0 * p.y()));
+    });
+  const auto expectNear = [](const std::vector<Vec3>& points, bool closeHoles)
   {
+    SCOPED_TRACE(std::to_string(points.size()) + (closeHoles ? " closed" : " open"));
+    ConvectionOptions options;
+    options.closeHoles = closeHoles;
     const PeakMemory memory;
-    reconstruct(points, {}, memory);
+    reconstruct(points, options, memory);
     const double estimate = estimateWork(points.size()).bytes;
     EXPECT_LT(memory.peak(), 3.0 * estimate);
     EXPECT_GT(memory.peak(), estimate / 3.0);
-  }
+  };
+  expectNear(randomTorus(1.0, 0.4, 20000, 1), true);
+  expectNear(randomSphere(60000, 2), true);
+  expectNear(volume, true);
+  expectNear(randomTorus(1.0, 0.4, 20000, 1), false);
+  expectNear(waves, false);
 }
 
 TEST(WorkEstimate, TellsTheMemoryOfALevelOfDetailWithinAFactorOfThree)
