@@ -6,12 +6,11 @@
 namespace hybridtree
 {
 
-BlendMixture::BlendMixture(
-  PieceFields& fields, const std::vector<double>& bounds, const std::vector<std::int32_t>* centers)
+BlendMixture::BlendMixture(PieceFields& fields, const std::vector<double>& bounds)
   : fields_(fields)
   , share_(fields.pieces().groups().control)
   , bounds_(bounds)
-  , sets_(fields.pieces(), bounds, centers)
+  , sets_(fields.pieces(), bounds, nullptr)
   , points_(fields.points().size)
   , best_(points_)
   , total_(points_)

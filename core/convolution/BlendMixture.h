@@ -16,10 +16,9 @@ class BlendMixture
 public:
   static constexpr std::size_t kMostPoints = 64;
 
-  /// \param bounds and \param centers as for BlendSets.
+  /// \param bounds as for BlendSets.
   /// \pre at most kMostPoints points.
-  BlendMixture(PieceFields& fields, const std::vector<double>& bounds,
-    const std::vector<std::int32_t>* centers);
+  BlendMixture(PieceFields& fields, const std::vector<double>& bounds);
 
   double best(std::size_t k) const { return best_.data()[k]; }
   double leastBest() const;

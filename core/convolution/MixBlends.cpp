@@ -51,7 +51,7 @@ void mixNear(
       sum[k] += field[k];
     }
   }
-  BlendMixture mixture(fields, bounds, nullptr);
+  BlendMixture mixture(fields, bounds);
   std::vector<std::size_t> changed;
   for (std::size_t k = 0; k < points.size; ++k)
   {

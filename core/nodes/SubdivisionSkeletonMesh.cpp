@@ -80,7 +80,7 @@ SkeletonField fieldOf(
     mix(key, std::uint64_t(sums)); // a preview's pieces are not those of a closed mesh
   }
   return { leaf.coarse(), leaf.refined(), options.level, leaf, reachOf(options, parameters), key,
-    elements };
+    elements, options.blending.kind == BlendingKind::All };
 }
 
 constexpr std::size_t kTogether = 32; // points whose elements are looked for at once

@@ -98,8 +98,11 @@ private:
     {
       this->smoothNewNormals();
     }
-    sharpenCreases(field_, options_.grid.lattice({}, {}),
-      mesh.triangles.size() - patch.triangles.size(), mesh, progress_);
+    if (options_.haveCreases)
+    {
+      sharpenCreases(field_, options_.grid.lattice({}, {}),
+        mesh.triangles.size() - patch.triangles.size(), mesh, progress_);
+    }
     std::copy(before.begin(), before.end(), mesh.normals.begin());
   }
 

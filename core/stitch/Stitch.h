@@ -31,6 +31,8 @@ struct StitchOptions
   std::size_t maxBytes = std::size_t(8) << 30;
   /// How often cells around places that do not fit are marked and all is done again.
   int maxRounds = 4;
+  /// Whether the surface may have creases, which are looked for in the patches.
+  bool haveCreases = true;
 };
 
 struct StitchedMesh

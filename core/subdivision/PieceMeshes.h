@@ -26,6 +26,8 @@ struct SkeletonField
   std::uint64_t key = 0;
   /// What the meshes of pieces follow near single elements; null: `field` everywhere.
   const ElementFields* elements = nullptr;
+  /// No creases anywhere, as where everything blends.
+  bool isSmooth = false;
 };
 
 using PieceMeshPtr = std::shared_ptr<const PieceMesh>;

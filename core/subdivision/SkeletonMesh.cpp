@@ -256,6 +256,7 @@ std::optional<StitchedMesh> skeletonMesh(const SkeletonField& skeleton,
   StitchOptions stitching;
   stitching.grid = CellGrid::ofLevel(options.edgeLength, 1);
   stitching.maxBytes = options.maxBytes;
+  stitching.haveCreases = !skeleton.isSmooth;
   CellSet cells = cellsWherePiecesMeet(pieces, skeleton, options.refinement, stitching.grid);
   std::vector<KeptPart> parts;
   for (const PieceMeshPtr& piece : pieces)
