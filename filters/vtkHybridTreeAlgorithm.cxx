@@ -2,6 +2,7 @@
 #include "vtkHybridTreeAlgorithm.h"
 
 #include "core/base/Error.h"
+#include "core/mesh/TriangleMesh.h"
 #include "core/nodes/MeshLimits.h"
 #include "core/nodes/Node.h"
 #include "vtkDataArray.h"
@@ -310,6 +311,7 @@ void vtkHybridTreeAlgorithm::WriteOutput(
   {
     ++this->NumberOfMeshings;
     const MeshPtr mesh = this->MakeMesh(*state.Node, progress);
+    this->WarnOfLostShape(*mesh);
     hybridtree::toPolyData(mesh, output);
     this->Warn(hybridtree::passArrays(arrays, leaves, *mesh, output));
   }
@@ -317,6 +319,19 @@ void vtkHybridTreeAlgorithm::WriteOutput(
   hybridtree::putArrays(arrays, leaves, output->GetFieldData());
   vtkHybridTreeArray::PutTree(state.Node, output);
   reuseArrays(state.FieldArrays, output->GetFieldData());
+}
+
+//------------------------------------------------------------------------------
+void vtkHybridTreeAlgorithm::WarnOfLostShape(const hybridtree::TriangleMesh& mesh)
+{
+  const hybridtree::Box3 box = this->Internals->Node->surfaceBounds();
+  if (mesh.triangles.empty() && !this->Internals->Node->isNegative() && !box.isEmpty() &&
+    2.0 * this->EdgeLength > box.diagonal().norm())
+  {
+    this->Warn({ "The shape has no triangles, as EdgeLength is too long for it: its bounds have a "
+                 "diagonal of " +
+      std::to_string(box.diagonal().norm()) + ". Use a smaller one, or 0." });
+  }
 }
 
 //------------------------------------------------------------------------------

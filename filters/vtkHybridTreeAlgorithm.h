@@ -186,6 +186,7 @@ private:
   void UpdateNode();
   void WriteOutput(vtkPolyData* output, bool withMesh, const hybridtree::Progress& progress);
   void Warn(const std::vector<std::string>& warnings);
+  void WarnOfLostShape(const hybridtree::TriangleMesh& mesh);
   static void Clear(vtkInformationVector* outputs);
 
   struct State;

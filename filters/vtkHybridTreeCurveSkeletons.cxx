@@ -210,6 +210,11 @@ hybridtree::Potential vtkHybridTreeCurveSkeletons::FittedPotential(
     surface =
       this->InfluenceRadius > 0.0 ? std::min(surface, 0.5 * this->InfluenceRadius) : surface;
   }
+  if (!(surface >= 0.0 && std::isfinite(surface)))
+  {
+    throw hybridtree::InvalidParameter("SurfaceRadius", surface,
+      "a finite length > 0, or 0 for 3 % of the longest side of the bounds");
+  }
   return this->GetPotential(
     surface, this->InfluenceRadius == 0.0 ? 2.0 * surface : this->InfluenceRadius);
 }

@@ -82,7 +82,7 @@ std::shared_ptr<const hybridtree::Skeleton> vtkHybridTreeSurfaceOfRevolution::Ma
     throw hybridtree::InvalidParameter(
       "Kind", this->Kind, "0 (Catmull-Rom), 1 (B-spline) or 2 (polyline)");
   }
-  const Vec3 origin(this->Origin);
+  const Vec3 origin = hybridtree::requireFinite("Origin", Vec3(this->Origin));
   const Vec3 axis = hybridtree::requireDirection("Axis", Vec3(this->Axis));
   hybridtree::SplineCurve curve;
   curve.kind = static_cast<hybridtree::SplineKind>(this->Kind);

@@ -26,9 +26,10 @@ struct Kind<TwistMap>
   static double amount(const TwistMap& map) { return map.angle; }
   static void check(double angle)
   {
-    if (!std::isfinite(angle))
+    if (!std::isfinite(angle) || std::abs(angle) > kLargestTwist)
     {
-      throw InvalidParameter("The twist angle", angle, "a finite number");
+      throw InvalidParameter("The twist angle (in radians)", angle,
+        "between -6283 and 6283 (a thousand turns); chain two twists for more");
     }
   }
   static std::vector<std::string> warnings(const TwistMap&, const Box3&) { return {}; }

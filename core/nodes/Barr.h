@@ -25,10 +25,14 @@ struct BarrFrame
 /// Largest bend, in radians: beyond it the straight ends overlap and no inverse exists.
 inline constexpr double kLargestBend = 4.5;
 
+/// Largest twist, in radians: a thousand turns. Triangles of any size wind up beyond.
+inline constexpr double kLargestTwist = 6283.2;
+
 /// Barr's twist ([HT] 4.5.1): turns cross sections about the axis by an angle that grows linearly
 /// from 0 at begin to `angle`, in radians, at end. Before begin nothing changes; beyond end all is
 /// turned by `angle`. \throws InvalidParameter: an axis of length 0, a normal along the axis, begin
-/// >= end, or a number that is not finite. \pre child not null. The same of the next two.
+/// >= end, a number that is not finite, or an angle beyond kLargestTwist. \pre child not null. The
+/// same of the next two.
 NodePtr makeTwist(NodePtr child, const BarrFrame& frame, double angle);
 
 /// Barr's taper: scales cross sections about the axis by a factor that goes linearly from 1 at

@@ -69,6 +69,10 @@ void requireEdgeLength(double edgeLength)
     throw InvalidParameter(
       "EdgeLength", edgeLength, "a finite length > 0, or 0 for the bounding diagonal / 100");
   }
+  if (edgeLength > kLargestCoordinate)
+  {
+    throw InvalidParameter("EdgeLength", edgeLength, "at most 1e+100, as coordinates are");
+  }
 }
 
 } // namespace hybridtree

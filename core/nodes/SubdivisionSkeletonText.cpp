@@ -17,7 +17,7 @@ constexpr EnumNames<SubdivisionScheme, 2> kSchemes{ "Scheme", "scheme",
 constexpr EnumNames<KernelKind, 2> kKernels{ "Kernel", "kernel", { "compact", "cauchy" } };
 constexpr EnumNames<BlendingKind, 3> kBlendings{ "Blending", "blending",
   { "all", "neighbours", "paper" } };
-constexpr EnumNames<SkeletonRadius, 2> kRadii{ "Radius", "radius", { "linear", "constant" } };
+constexpr EnumNames<SkeletonRadius, 2> kRadii{ "RadiusInterpolation", "radius", { "linear", "constant" } };
 
 template <std::size_t N>
 std::vector<std::int64_t> flat(const std::vector<std::array<std::int32_t, N>>& elements)
