@@ -2,7 +2,9 @@
 #include "core/stitch/PatchShape.h"
 
 #include "core/mesh/MeshLinks.h"
+#include "core/stitch/DropRemoved.h"
 #include "core/stitch/ProjectPoints.h"
+#include "core/stitch/TriangleShape.h"
 
 #include <algorithm>
 #include <cmath>
@@ -30,27 +32,6 @@ constexpr double kLargestTurn = 0.8;    // cosine, of the normal of a triangle,
 constexpr double kLargestTilt = 0.6;    // or of one to the normals of its points
 constexpr double kFlatEnough = 0.94;    // cosine of the angle across an edge that may be flipped
 constexpr double kLongestSide = 1.6;    // cells, of a triangle that had shorter ones
-
-/// Cosine of the smallest angle: 0.5 at best, 1 without area.
-double shapeOf(const Vec3& a, const Vec3& b, const Vec3& c)
-{
-  const double ab = (b - a).squaredNorm();
-  const double bc = (c - b).squaredNorm();
-  const double ca = (a - c).squaredNorm();
-  const double shortest = std::min(std::min(ab, bc), ca);
-  const double longest = std::max(std::max(ab, bc), ca);
-  const double middle = std::max(std::min(std::max(ab, bc), ca), std::min(ab, bc));
-  const double scale = 2.0 * std::sqrt(middle) * std::sqrt(longest);
-  return scale > 0.0 ? (middle + longest - shortest) / scale : 1.0;
-}
-
-/// 1 without area, 0 from a smallest angle of 30 degrees on. Its sum falls with every change.
-double badness(double shape)
-{
-  constexpr double kGood = 0.866;
-  const double over = std::max(shape - kGood, 0.0) / (1.0 - kGood);
-  return over * over;
-}
 
 Vec3 normalOf(const Vec3& a, const Vec3& b, const Vec3& c)
 {
@@ -81,7 +62,7 @@ public:
     {
       this->mendAll();
     }
-    this->giveBack();
+    dropRemoved(links_, touched_, static_cast<std::size_t>(firstOwn_), mesh_, onCrease_);
   }
 
 private:
@@ -426,66 +407,6 @@ private:
     const bool crease = this->isCreasePoint(ia) && this->isCreasePoint(ib);
     const bool near = off <= (crease ? kMostOffCrease : kMostBent) * cellSize_ * both.norm();
     return near && agrees(normalOf(d, b, c)) && agrees(normalOf(c, a, d)) ? before - after : 0.0;
-  }
-
-  /// Leaves out what was removed, and keeps the order of the rest.
-  void giveBack()
-  {
-    std::vector<Index> number(mesh_.points.size() - static_cast<std::size_t>(firstOwn_), -1);
-    std::size_t kept = 0;
-    for (std::size_t t = 0; t < links_.triangleCount(); ++t)
-    {
-      if (links_.isRemoved(t))
-      {
-        continue;
-      }
-      const Triangle& c = links_.triangle(t);
-      mesh_.triangles[kept] = c;
-      mesh_.sourceLeaf[kept] = mesh_.sourceLeaf[t];
-      if (!mesh_.sourceTriangle.empty())
-      {
-        mesh_.sourceTriangle[kept] = touched_[t] ? -1 : mesh_.sourceTriangle[t];
-      }
-      for (const Index v : mesh_.triangles[kept])
-      {
-        if (v >= firstOwn_)
-        {
-          number[v - firstOwn_] = 0;
-        }
-      }
-      ++kept;
-    }
-    mesh_.triangles.resize(kept);
-    mesh_.sourceLeaf.resize(kept);
-    mesh_.sourceTriangle.resize(mesh_.sourceTriangle.empty() ? 0 : kept);
-    auto next = static_cast<std::size_t>(firstOwn_);
-    for (std::size_t k = 0; k < number.size(); ++k)
-    {
-      if (number[k] < 0)
-      {
-        continue;
-      }
-      const auto from = static_cast<std::size_t>(firstOwn_) + k;
-      onCrease_[next] = onCrease_[from];
-      mesh_.points[next] = mesh_.points[from];
-      mesh_.normals[next] = mesh_.normals[from];
-      if (!mesh_.vertexOrigin.empty())
-      {
-        mesh_.vertexOrigin[next] = mesh_.vertexOrigin[from];
-      }
-      number[k] = static_cast<Index>(next++);
-    }
-    mesh_.points.resize(next);
-    mesh_.normals.resize(next);
-    onCrease_.resize(next);
-    mesh_.vertexOrigin.resize(mesh_.vertexOrigin.empty() ? 0 : next);
-    for (std::size_t t = 0; t < kept; ++t)
-    {
-      for (Index& v : mesh_.triangles[t])
-      {
-        v = v >= firstOwn_ ? number[v - firstOwn_] : v;
-      }
-    }
   }
 
   const FieldSource& field_;
