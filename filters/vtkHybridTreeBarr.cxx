@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkHybridTreeBarr.h"
 
+#include "core/base/Error.h"
 #include "core/nodes/Barr.h"
 #include "vtkHybridTreeBounds.h"
 
@@ -33,6 +34,11 @@ hybridtree::BarrFrame vtkHybridTreeBarr::GetFrame(const hybridtree::Node& input)
     const double half = axis.cwiseAbs().dot(box.sizes()) / 2.0;
     frame.begin = middle - half;
     frame.end = middle + half;
+    if (!(frame.begin < frame.end) && frame.origin.allFinite())
+    {
+      throw hybridtree::InvalidParameter("Range", "of no length by itself",
+        "given: the input has no extent along the axis, or Origin is too far from it");
+    }
   }
   return frame;
 }
