@@ -15,8 +15,20 @@ class SignWalker
 {
 public:
   SignWalker(PatchBricks& bricks, const BorderCrossings& crossings)
-    : bricks_(bricks), crossings_(crossings), seen_(bricks.all().size()), told_(bricks.all().size())
+    : bricks_(bricks)
+    , seen_(bricks.all().size())
+    , told_(bricks.all().size())
+    , odd_(bricks.all().size())
   {
+    crossings.forEach(
+      [&](const LatticeEdge& edge, const std::vector<std::int32_t>& vertices)
+      {
+        const Place low = bricks_.locate(edge.low);
+        if (low.brick && vertices.size() % 2 == 1)
+        {
+          odd_[this->number(low)][edge.axis][low.z] |= bit(low);
+        }
+      });
   }
 
   std::vector<Index3> run()
@@ -104,8 +116,8 @@ private:
     {
       return;
     }
-    const auto* vertices = crossings_.find({ indexOf(low), axis });
-    const bool side = this->told(at) != (vertices && vertices->size() % 2 == 1);
+    const bool isOdd = PatchBrick::has(odd_[this->number(low)][axis], low.x, low.y, low.z);
+    const bool side = this->told(at) != isOdd;
     if ((seen_[this->number(next)][next.z] & bit(next)) == 0)
     {
       this->visit(next, side);
@@ -117,9 +129,9 @@ private:
   }
 
   PatchBricks& bricks_;
-  const BorderCrossings& crossings_;
   std::vector<BrickBits> seen_;
   std::vector<BrickBits> told_;
+  std::vector<std::array<BrickBits, 3>> odd_; ///< [axis]: edges with an odd number of crossings
   std::vector<Place> component_;
   std::vector<Index3> contradictions_;
 };

@@ -35,6 +35,16 @@ public:
   /// In rising order along the edge; null where there is none.
   const std::vector<std::int32_t>* find(const LatticeEdge& edge) const;
 
+  /// visit(edge, vertices), in no order.
+  template <class Visit>
+  void forEach(Visit&& visit) const
+  {
+    for (const auto& [edge, vertices] : vertices_)
+    {
+      visit(edge, vertices);
+    }
+  }
+
 private:
   std::unordered_map<LatticeEdge, std::vector<std::int32_t>, LatticeEdgeHash> vertices_;
 };

@@ -375,12 +375,11 @@ private:
     }
     std::sort(near.begin(), near.end());
     near.erase(std::unique(near.begin(), near.end()), near.end());
-    for (const std::int32_t t : near)
+    std::vector<std::int32_t> staying;
+    std::set_difference(
+      near.begin(), near.end(), gone.begin(), gone.end(), std::back_inserter(staying));
+    for (const std::int32_t t : staying)
     {
-      if (std::binary_search(gone.begin(), gone.end(), t))
-      {
-        continue;
-      }
       Triangle c = parts_[p].mesh->triangles[t];
       for (std::int32_t& v : c)
       {
