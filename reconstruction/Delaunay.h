@@ -201,7 +201,7 @@ private:
   Order insertMost(const Order& order, const Progress& progress);
   Order insertInSlabs(const Order& order, int axis, const Progress& progress);
   std::array<int, 3> axesBySize() const;
-  std::vector<Worker> makeSlabs(int axis, std::vector<double> places);
+  std::vector<Worker> makeSlabs(int axis, std::vector<double> places, const Progress& progress);
   void markSlab(std::int32_t cell);
   int slabOf(const Vec3& point) const;
   void reuseCells(Worker& worker, std::size_t points);

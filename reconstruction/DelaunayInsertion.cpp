@@ -90,7 +90,7 @@ Delaunay::Order Delaunay::insertInSlabs(const Order& order, int axis, const Prog
   std::vector<double> places(order.size());
   std::transform(order.begin(), order.end(), places.begin(),
     [&](std::int32_t point) { return points_[point][axis]; });
-  std::vector<Worker> workers = this->makeSlabs(axis, std::move(places));
+  std::vector<Worker> workers = this->makeSlabs(axis, std::move(places), progress);
   std::vector<Order> parts(workers.size());
   for (const std::int32_t point : order)
   {
@@ -109,6 +109,7 @@ Delaunay::Order Delaunay::insertInSlabs(const Order& order, int axis, const Prog
         left[k] = this->insertAll(workers[k], parts[k], progress);
       }
     });
+  progress.check();
   progress.report(1.0);
   Order all;
   std::vector<std::size_t> next(left.size(), 0);

@@ -25,11 +25,12 @@ std::vector<Delaunay::Worker> Delaunay::part(const std::vector<Vec3>& points, in
   std::vector<double> places(points.size());
   std::transform(
     points.begin(), points.end(), places.begin(), [&](const Vec3& point) { return point[axis]; });
-  return this->makeSlabs(axis, std::move(places));
+  return this->makeSlabs(axis, std::move(places), Progress::none());
 }
 
 // Across an axis, with as many of these places in each.
-std::vector<Delaunay::Worker> Delaunay::makeSlabs(int axis, std::vector<double> places)
+std::vector<Delaunay::Worker> Delaunay::makeSlabs(
+  int axis, std::vector<double> places, const Progress& progress)
 {
   slabAxis_ = axis;
   slabBorders_.clear();
@@ -47,6 +48,7 @@ std::vector<Delaunay::Worker> Delaunay::makeSlabs(int axis, std::vector<double> 
   parallelFor(cells_.size(), 8192,
     [&](std::size_t first, std::size_t last)
     {
+      progress.check();
       for (std::size_t cell = first; cell < last; ++cell)
       {
         this->markSlab(static_cast<std::int32_t>(cell));
