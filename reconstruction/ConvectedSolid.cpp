@@ -36,6 +36,8 @@ constexpr double kPolesOfHoles = 1.5;
 // Where fewer of the points than this share are on the surface, a part of it was perhaps not
 // entered, or broken into: a second way to tell inside from outside is tried.
 constexpr double kFewUsed = 0.9;
+// Where as many are, no better way is looked for.
+constexpr double kMostUsed = 0.97;
 // It is kept if it reaches this many times as many.
 constexpr double kMoreUsed = 1.05;
 // Where points that lie together are hidden, the empty balls are asked (BallSides.h). What they say
@@ -182,9 +184,13 @@ std::optional<Solid> solidByBalls(const Tetrahedralization& tetrahedra, const Fa
   {
     return std::nullopt;
   }
-  BallSides sides = findSidesByBalls(tetrahedra, sizes, progress);
-  repairSolid(tetrahedra, sides.inside, Voids::Filled, progress);
   const double before = share(used);
+  BallSides sides = findSidesByBalls(tetrahedra, sizes, progress);
+  if (sides.contradicted > kContradicted && before >= kFewUsed)
+  {
+    return std::nullopt;
+  }
+  repairSolid(tetrahedra, sides.inside, Voids::Filled, progress);
   const double now = share(usedBy(tetrahedra, sides.inside, progress));
   const bool clear =
     sides.contradicted <= kContradicted && 1.0 - now < kFewerHidden * (1.0 - before);
@@ -193,6 +199,79 @@ std::optional<Solid> solidByBalls(const Tetrahedralization& tetrahedra, const Fa
     return std::move(sides.inside);
   }
   return std::nullopt;
+}
+
+// Whether the hull lies on both sides of a surface.
+bool isOpen(const Tetrahedralization& tetrahedra, const std::vector<std::uint8_t>& inside)
+{
+  constexpr double kLeast = 0.05;
+  const auto infinite = inside.begin() + tetrahedra.finiteCellCount();
+  const double behind =
+    double(std::count(infinite, inside.end(), 1)) / double(inside.end() - infinite);
+  return behind > kLeast && behind < 1.0 - kLeast;
+}
+
+// What lies behind an open sheet, as far as to the hull: under a landscape, or what was seen from
+// one side. Of both its sides that with more points, if no normals tell. Nothing if it is not open.
+std::optional<Solid> solidBehindSheet(const Tetrahedralization& tetrahedra, const FacetSize& sizes,
+  SiteNormals normals, const Progress& progress)
+{
+  const std::vector<std::uint8_t> inside = findSheetByBalls(tetrahedra, sizes, normals, progress);
+  if (!isOpen(tetrahedra, inside))
+  {
+    return std::nullopt;
+  }
+  const auto bySide = [&](std::uint8_t side)
+  {
+    Solid solid(inside.size(), 0);
+    std::transform(inside.begin(), inside.begin() + tetrahedra.finiteCellCount(), solid.begin(),
+      [&](std::uint8_t of) { return static_cast<std::uint8_t>(of == side ? 1 : 0); });
+    repairSolid(tetrahedra, solid, normals ? Voids::Kept : Voids::Filled, progress);
+    return solid;
+  };
+  Solid behind = bySide(1);
+  const double reached = share(usedBy(tetrahedra, behind, progress));
+  if (!normals && reached < kMostUsed)
+  {
+    Solid before = bySide(0);
+    if (share(usedBy(tetrahedra, before, progress)) > kMoreUsed * reached)
+    {
+      return before;
+    }
+  }
+  return behind;
+}
+
+// Share of a solid's surface that is wider than the sampling anywhere near.
+double shareOverNothing(const Tetrahedralization& tetrahedra, const FacetSize& sizes,
+  const Solid& inside, const Progress& progress)
+{
+  constexpr double kNothing = 8.0; // spacings at the sparsest corner
+  double all = 0.0;
+  double over = 0.0;
+  for (const std::int32_t halfFacet : boundaryFacets(tetrahedra, inside, progress))
+  {
+    const auto v = tetrahedra.facet(halfFacet >> 2, halfFacet & 3);
+    const auto& p = tetrahedra.points();
+    const double area = (p[v[1]] - p[v[0]]).cross(p[v[2]] - p[v[0]]).norm();
+    all += area;
+    over += sizes.certainOfFacet(halfFacet >> 2, halfFacet & 3) > kNothing ? area : 0.0;
+  }
+  return all > 0.0 ? over / all : 0.0;
+}
+
+void warnOfMissingParts(double share, std::vector<std::string>& warnings)
+{
+  constexpr double kMuch = 0.15;
+  if (share > kMuch)
+  {
+    std::ostringstream text;
+    text
+      << std::lround(100.0 * share)
+      << " % of the surface spans places without points: parts of it are missing, or it is open. "
+         "It was closed over them; switch CloseHoles off to leave them open.";
+    warnings.push_back(text.str());
+  }
 }
 
 void checkMemory(std::size_t points, std::size_t limit)
@@ -281,13 +360,16 @@ std::vector<std::uint8_t> convectSolid(const Tetrahedralization& tetrahedra,
     return solidBySides(
       tetrahedra, sizes, sides, options.openPockets, ProgressPart(progress, from, to));
   };
+  Solid told; // by normals
+  double toldUsed = 0.0;
   if (normals)
   {
-    Solid inside = bySides(0.1, 1.0);
-    if (!solidIsMissing(tetrahedra, inside) &&
-      share(usedBy(tetrahedra, inside, progress)) >= kFewUsed)
+    told = bySides(0.1, 1.0);
+    toldUsed = solidIsMissing(tetrahedra, told) ? 0.0 : share(usedBy(tetrahedra, told, progress));
+    if (toldUsed >= kFewUsed)
     {
-      return inside;
+      warnOfMissingParts(shareOverNothing(tetrahedra, sizes, told, progress), warnings);
+      return told;
     }
   }
   Solid inside =
@@ -310,18 +392,42 @@ std::vector<std::uint8_t> convectSolid(const Tetrahedralization& tetrahedra,
       }
     }
   }
-  if (options.openPockets)
+  const auto takeIfMore = [&](std::optional<Solid>& other)
   {
-    if (auto other = solidByBalls(tetrahedra, sizes, used, ProgressPart(progress, 0.8, 0.9)))
+    if (other && share(usedBy(tetrahedra, *other, progress)) > kMoreUsed * share(used))
     {
       inside.swap(*other);
+      used = usedBy(tetrahedra, inside, progress);
     }
+  };
+  std::optional<Solid> behind;
+  if (share(used) < kFewUsed)
+  {
+    behind = solidBehindSheet(tetrahedra, sizes, normals, ProgressPart(progress, 0.8, 0.85));
+  }
+  const bool reached = behind && share(usedBy(tetrahedra, *behind, progress)) >= kMostUsed;
+  if (options.openPockets && !reached)
+  {
+    if (auto other = solidByBalls(tetrahedra, sizes, used, ProgressPart(progress, 0.85, 0.9)))
+    {
+      inside.swap(*other);
+      used = usedBy(tetrahedra, inside, progress);
+    }
+  }
+  takeIfMore(behind);
+  if (toldUsed > 0.0 && toldUsed * kMoreUsed >= share(used))
+  {
+    inside.swap(told);
   }
   if (solidIsMissing(tetrahedra, inside))
   {
     warnings.push_back("The points are too few, too scattered or on too open a surface to tell "
                        "inside from outside: only dents were followed.");
     inside = solidFromHull(tetrahedra, sizes, ProgressPart(progress, 0.9, 1.0));
+  }
+  else
+  {
+    warnOfMissingParts(shareOverNothing(tetrahedra, sizes, inside, progress), warnings);
   }
   return inside;
 }

@@ -340,6 +340,40 @@ TEST_P(OpenTerrain, IsOneSheetThroughAllPoints)
   }
 }
 
+class ClosedTerrain : public testing::TestWithParam<Terrain>
+{
+};
+
+// Closed towards the hull. Where the hull touches the surface on both sides, handles may be left.
+TEST_P(ClosedTerrain, IsTheSkinOfOneSolid)
+{
+  const TerrainPoints sample = sampleOf(GetParam(), 6000, 3);
+  ConvectionOptions options;
+  for (const bool known : { false, true })
+  {
+    options.normals = known ? sample.normals : std::vector<Vec3>();
+    const ReconstructedSurface surface = reconstruct(sample.points, options);
+    expectManifold(surface, sample.points);
+    const MeshReport report = checkMesh(surface.mesh);
+    EXPECT_TRUE(report.closedManifold()) << report.describe();
+    EXPECT_EQ(report.components, 1u);
+    EXPECT_GT(surface.mesh.points.size(), sample.points.size() * 97 / 100);
+  }
+}
+
+TEST(OpenSurface, TellsOfWhatItCloses)
+{
+  const std::vector<Vec3> all = randomSphere(6000, 33);
+  EXPECT_TRUE(reconstruct(all).warnings.empty());
+  const std::vector<Vec3> half = onlyWhere(all, [](const Vec3& p) { return p.z() < 0.0; });
+  EXPECT_EQ(reconstruct(half).warnings.size(), 1u);
+  EXPECT_TRUE(reconstruct(half, open()).warnings.empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(Shapes, ClosedTerrain,
+  testing::Values(kTerrains[1], kTerrains[2], kTerrains[4], kTerrains[5], kTerrains[6]),
+  [](const auto& info) { return info.param.name; });
+
 INSTANTIATE_TEST_SUITE_P(Shapes, OpenTerrain, testing::ValuesIn(kTerrains),
   [](const auto& info) { return info.param.name; });
 
