@@ -2,6 +2,7 @@
 #include "core/stitch/CutMesh.h"
 
 #include "core/stitch/FillPolygon.h"
+#include "core/stitch/RefinePolygon.h"
 
 #include <algorithm>
 #include <cmath>
@@ -384,10 +385,43 @@ private:
         vertex = static_cast<std::int32_t>(vertices.size() - 1);
       }
     }
-    for (const Triangle& c : fillPolygon(std::move(borders), place))
+    std::vector<Triangle> pieces = fillPolygon(std::move(borders), place);
+    this->refine(normal.stableNormalized(), pieces, vertices);
+    for (const Triangle& c : pieces)
     {
       result_.pieces.push_back({ vertices[c[0]], vertices[c[1]], vertices[c[2]] });
       result_.pieceOf.push_back(t);
+    }
+  }
+
+  /// Adds vertices in the midst of what is left of a triangle, if it is so large that it would
+  /// reach the cells as needles.
+  void refine(
+    const Vec3& normal, std::vector<Triangle>& pieces, std::vector<std::int32_t>& vertices)
+  {
+    const Vec3 u = normal.unitOrthogonal();
+    const Vec3 v = normal.cross(u);
+    const Vec3& origin = mesh_.points[mesh_.triangles[current_][0]];
+    constexpr double kLarge = 3.0; // cells
+    std::vector<Eigen::Vector2d> place;
+    Eigen::AlignedBox2d box;
+    for (const std::int32_t vertex : vertices)
+    {
+      const Vec3 p =
+        (vertex < points_ ? mesh_.points[vertex] : result_.vertices[vertex - points_].point) -
+        origin;
+      place.emplace_back(u.dot(p), v.dot(p));
+      box.extend(place.back());
+    }
+    if (!(box.sizes().maxCoeff() > kLarge * grid_.cellSize))
+    {
+      return;
+    }
+    refinePolygon(pieces, place);
+    for (std::size_t k = vertices.size(); k < place.size(); ++k)
+    {
+      vertices.push_back(points_ + static_cast<std::int32_t>(result_.vertices.size()));
+      result_.vertices.push_back(this->cutVertex(origin + place[k].x() * u + place[k].y() * v));
     }
   }
 

@@ -58,7 +58,8 @@ struct CutMesh
 /// then y, then z, by comparing coordinates alone: a point in a plane counts as above it. So
 /// triangles at an edge, and pieces at a cut, agree on every vertex, and the result is a consistent
 /// complex for every input, whatever rounding does; the pieces outside are then put together again
-/// and triangulated anew. Vertices of neighbouring triangles never differ: no T-junctions.
+/// and triangulated anew. In triangles much larger than a cell they get vertices in their midst
+/// (RefinePolygon.h). Vertices of neighbouring triangles never differ: no T-junctions.
 ///
 /// \param candidates triangles, rising: all that may touch the cells (TriangleBlocks::near()).
 /// \pre cells is sorted and without diagonal contacts (CellSet::fillDiagonals()); mesh has indices
