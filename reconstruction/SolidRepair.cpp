@@ -19,6 +19,7 @@ enum class Infinity : std::uint8_t
 };
 
 constexpr int kMostFlips = 6;
+constexpr std::int32_t kUnknown = -1;
 // How many steps between two looks at whether to go on.
 constexpr std::size_t kBreath = 65536;
 
@@ -43,6 +44,7 @@ public:
     , unseen_(inside.size(), 0)
     , flips_(inside.size(), 0)
     , waiting_(tetrahedra.points().size(), 0)
+    , excess_(tetrahedra.points().size(), kUnknown)
   {
   }
 
@@ -76,11 +78,13 @@ private:
   bool mendVertices(Mend mend);
   void changeBest(std::int32_t vertex, const std::vector<Clump>& clumps);
   bool mayChange(const Clump& clump) const;
-  long gain(const Clump& clump);
+  long gain(const Clump& clump, std::int32_t vertex, long least);
   void change(const Clump& clump);
   void fillStar(std::int32_t vertex, const std::vector<Clump>& clumps);
   std::vector<Clump> clumpsAround(std::int32_t vertex);
   std::size_t countClumps(std::int32_t vertex);
+  long excess(std::int32_t vertex);
+  void flip(const Clump& clump);
   bool onSurface(std::int32_t vertex) const;
   double reach(std::int32_t cell) const;
   bool isHeld(std::int32_t cell) const
@@ -100,6 +104,8 @@ private:
   std::vector<std::int32_t> stack_;
   std::vector<std::uint8_t> flips_;
   std::vector<std::uint8_t> waiting_;
+  std::vector<std::int32_t> excess_;   // clumps too many, where they have been counted
+  std::vector<std::int32_t> around_;   // vertices of the clump that is tried
   std::vector<std::int32_t> vertices_; // that wait
   std::vector<std::int32_t> unmended_; // that no change was found for
   std::size_t changes_ = 0;
@@ -196,6 +202,12 @@ std::size_t SolidRepair::countClumps(std::int32_t vertex)
   return clumps;
 }
 
+// Clumps too many around a vertex, as the cells are now.
+long SolidRepair::excess(std::int32_t vertex)
+{
+  return std::max<long>(0, static_cast<long>(this->countClumps(vertex)) - 2);
+}
+
 bool SolidRepair::onSurface(std::int32_t vertex) const
 {
   const auto star = tetrahedra_.star(vertex);
@@ -205,7 +217,7 @@ bool SolidRepair::onSurface(std::int32_t vertex) const
 
 void SolidRepair::await(std::int32_t vertex)
 {
-  if (vertex != Tetrahedralization::kInfinite && !waiting_[vertex])
+  if (!waiting_[vertex])
   {
     waiting_[vertex] = 1;
     vertices_.push_back(vertex);
@@ -219,7 +231,11 @@ void SolidRepair::setSide(std::int32_t cell, bool inside)
   ++changes_;
   for (const std::int32_t vertex : tetrahedra_.cell(cell))
   {
-    this->await(vertex);
+    if (vertex != Tetrahedralization::kInfinite)
+    {
+      excess_[vertex] = kUnknown;
+      this->await(vertex);
+    }
   }
 }
 
@@ -293,7 +309,7 @@ void SolidRepair::changeBest(std::int32_t vertex, const std::vector<Clump>& clum
     {
       continue;
     }
-    const long gain = this->gain(choice);
+    const long gain = this->gain(choice, vertex, best ? bestGain : leastGain_);
     if (gain > bestGain || (gain == bestGain && best && choice.reach < best->reach))
     {
       best = &choice;
@@ -314,38 +330,46 @@ bool SolidRepair::mayChange(const Clump& clump) const
         [this](std::int32_t cell) { return flips_[cell] < mostFlips_; }));
 }
 
-long SolidRepair::gain(const Clump& clump)
+// How many clumps too many there are fewer once the clump, one around the vertex, has changed
+// sides. Less than the least, anything that is: most changes are seen to be too little at the
+// vertex itself.
+long SolidRepair::gain(const Clump& clump, std::int32_t vertex, long least)
 {
-  std::vector<std::int32_t> vertices;
+  around_.clear();
   for (const std::int32_t cell : clump.cells)
   {
-    vertices.insert(vertices.end(), tetrahedra_.cell(cell).begin(), tetrahedra_.cell(cell).end());
+    around_.insert(around_.end(), tetrahedra_.cell(cell).begin(), tetrahedra_.cell(cell).end());
   }
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-  vertices.erase(
-    std::remove(vertices.begin(), vertices.end(), Tetrahedralization::kInfinite), vertices.end());
-  const auto bad = [&]
+  std::sort(around_.begin(), around_.end());
+  around_.erase(std::unique(around_.begin(), around_.end()), around_.end());
+  around_.erase(
+    std::remove(around_.begin(), around_.end(), Tetrahedralization::kInfinite), around_.end());
+  std::iter_swap(around_.begin(), std::find(around_.begin(), around_.end(), vertex));
+  long gain = 0;
+  for (const std::int32_t v : around_)
   {
-    long count = 0;
-    for (const std::int32_t vertex : vertices)
+    if (excess_[v] == kUnknown)
     {
-      count += std::max<long>(0, static_cast<long>(this->countClumps(vertex)) - 2);
+      excess_[v] = static_cast<std::int32_t>(this->excess(v));
     }
-    return count;
-  };
-  const auto flip = [&]
+    gain += excess_[v];
+  }
+  this->flip(clump);
+  for (std::size_t k = 0; k < around_.size() && gain >= least; ++k)
   {
-    for (const std::int32_t cell : clump.cells)
-    {
-      inside_[cell] ^= 1;
-    }
-  };
-  const long before = bad();
-  flip();
-  const long after = bad();
-  flip();
-  return before - after;
+    gain -= this->excess(around_[k]);
+  }
+  this->flip(clump);
+  return gain;
+}
+
+// For a trial: nothing is told of it.
+void SolidRepair::flip(const Clump& clump)
+{
+  for (const std::int32_t cell : clump.cells)
+  {
+    inside_[cell] ^= 1;
+  }
 }
 
 void SolidRepair::change(const Clump& clump)
