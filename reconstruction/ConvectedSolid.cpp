@@ -11,6 +11,7 @@
 #include "reconstruction/SolidBoundary.h"
 #include "reconstruction/SolidRepair.h"
 #include "reconstruction/SpatialOrder.h"
+#include "reconstruction/SurfaceParts.h"
 #include "reconstruction/WorkEstimate.h"
 
 #include "core/base/Error.h"
@@ -42,9 +43,12 @@ constexpr double kMostUsed = 0.97;
 constexpr double kMoreUsed = 1.05;
 // Where points that lie together are hidden, the empty balls are asked (BallSides.h). What they say
 // is taken if it leaves at most this share of the hidden points hidden, and if they agree: at most
-// this share of the points is contradicted.
+// this share of the points is contradicted. Where a part is missing, as behind thin walls, more may
+// be (0.01 in the worst drawings of meshes); in noise points see the same side both ways (0.13 and
+// more): of what is found there, no handle is believed.
 constexpr double kFewerHidden = 0.5;
 constexpr double kContradicted = 0.0025;
+constexpr double kNoisy = 0.05;
 
 // Whether no solid was found, or but crumbs along the surface of something open: none of them
 // touches a hundredth of the points.
@@ -135,6 +139,17 @@ double share(const std::vector<std::uint8_t>& used)
   return double(std::count(used.begin(), used.end(), 1)) / double(used.size());
 }
 
+// Whether a solid goes through clearly more points than another, and not by handles and crumbs but
+// where there was nothing else.
+bool isBetter(const Tetrahedralization& tetrahedra, const Solid& solid, const Solid& than,
+  const Progress& progress, double pointsOfPart = kPointsOfPart)
+{
+  const SurfaceParts now = partsOfBoundary(tetrahedra, solid, progress);
+  const SurfaceParts before = partsOfBoundary(tetrahedra, than, progress);
+  return double(now.points) > kMoreUsed * double(before.points) &&
+    (isPaidByPoints(now, before, pointsOfPart) || solidIsMissing(tetrahedra, than));
+}
+
 // Whether points that are not used lie together: single ones are noise, or where a surface is
 // sharp; many, a wall, a hole or a gap that was not entered.
 bool someAreHidden(
@@ -176,10 +191,11 @@ bool someAreHidden(
   return false;
 }
 
-// The solid that the empty balls tell, if it hides much less than one that uses those points.
+// The solid that the empty balls tell, if it hides much less than another.
 std::optional<Solid> solidByBalls(const Tetrahedralization& tetrahedra, const FacetSize& sizes,
-  const std::vector<std::uint8_t>& used, const Progress& progress)
+  const Solid& than, const Progress& progress)
 {
+  const std::vector<std::uint8_t> used = usedBy(tetrahedra, than, progress);
   if (!someAreHidden(tetrahedra, sizes, used))
   {
     return std::nullopt;
@@ -194,7 +210,9 @@ std::optional<Solid> solidByBalls(const Tetrahedralization& tetrahedra, const Fa
   const double now = share(usedBy(tetrahedra, sides.inside, progress));
   const bool clear =
     sides.contradicted <= kContradicted && 1.0 - now < kFewerHidden * (1.0 - before);
-  if (clear || (before < kFewUsed && now > kMoreUsed * before))
+  const double price =
+    sides.contradicted > kNoisy ? std::numeric_limits<double>::infinity() : kPointsOfPart;
+  if (clear || (before < kFewUsed && isBetter(tetrahedra, sides.inside, than, progress, price)))
   {
     return std::move(sides.inside);
   }
@@ -375,47 +393,44 @@ std::vector<std::uint8_t> convectSolid(const Tetrahedralization& tetrahedra,
   Solid inside =
     solid(tetrahedra, sizes, findRegions(tetrahedra, sizes, kWide, options.pocketFactor, progress),
       options.openPockets, Voids::Filled, ProgressPart(progress, 0.1, 0.7));
-  std::vector<std::uint8_t> used = usedBy(tetrahedra, inside, progress);
+  double used = share(usedBy(tetrahedra, inside, progress));
+  const auto takeIfBetter = [&](Solid& other)
+  {
+    if (isBetter(tetrahedra, other, inside, progress))
+    {
+      inside.swap(other);
+      used = share(usedBy(tetrahedra, inside, progress));
+    }
+  };
   // At first as mouths are wide; then, as where a part is missing, no mouth is taken for granted.
   for (const double mouth : { options.pocketFactor, std::numeric_limits<double>::infinity() })
   {
-    if (share(used) < kFewUsed)
+    if (used < kFewUsed)
     {
       sides.mouth = mouth;
       sides.poles = std::isinf(mouth) ? kPolesOfHoles : kPoles;
       Solid other = bySides(0.7, 0.8);
-      std::vector<std::uint8_t> otherUsed = usedBy(tetrahedra, other, progress);
-      if (share(otherUsed) > kMoreUsed * share(used))
-      {
-        inside.swap(other);
-        used.swap(otherUsed);
-      }
+      takeIfBetter(other);
     }
   }
-  const auto takeIfMore = [&](std::optional<Solid>& other)
-  {
-    if (other && share(usedBy(tetrahedra, *other, progress)) > kMoreUsed * share(used))
-    {
-      inside.swap(*other);
-      used = usedBy(tetrahedra, inside, progress);
-    }
-  };
   std::optional<Solid> behind;
-  if (share(used) < kFewUsed)
+  if (used < kFewUsed)
   {
     behind = solidBehindSheet(tetrahedra, sizes, normals, ProgressPart(progress, 0.8, 0.85));
   }
   const bool reached = behind && share(usedBy(tetrahedra, *behind, progress)) >= kMostUsed;
   if (options.openPockets && !reached)
   {
-    if (auto other = solidByBalls(tetrahedra, sizes, used, ProgressPart(progress, 0.85, 0.9)))
+    if (auto other = solidByBalls(tetrahedra, sizes, inside, ProgressPart(progress, 0.85, 0.9)))
     {
       inside.swap(*other);
-      used = usedBy(tetrahedra, inside, progress);
     }
   }
-  takeIfMore(behind);
-  if (toldUsed > 0.0 && toldUsed * kMoreUsed >= share(used))
+  if (behind)
+  {
+    takeIfBetter(*behind);
+  }
+  if (toldUsed > 0.0 && !isBetter(tetrahedra, inside, told, progress))
   {
     inside.swap(told);
   }

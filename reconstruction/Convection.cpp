@@ -5,6 +5,7 @@
 #include "reconstruction/Holes.h"
 #include "reconstruction/SolidBoundary.h"
 #include "reconstruction/SpatialOrder.h"
+#include "reconstruction/SurfaceParts.h"
 #include "reconstruction/Tetrahedralization.h"
 #include "reconstruction/WorkEstimate.h"
 
@@ -56,7 +57,8 @@ ReconstructedSurface sheetAround(const Tetrahedralization& tetrahedra,
   return sheet;
 }
 
-// Clearly more points, and half of the others at least, or anything where nothing is.
+// Clearly more points, and half of the others at least, and not by handles and holes; or anything
+// where nothing is.
 bool isBetter(
   const ReconstructedSurface& sheet, const ReconstructedSurface& than, std::size_t points)
 {
@@ -65,7 +67,8 @@ bool isBetter(
   const auto now = double(sheet.pointIds.size());
   const auto before = double(than.pointIds.size());
   return than.mesh.triangles.empty() ||
-    (now > kMore * before && double(points) - now < kFewerLeft * (double(points) - before));
+    (now > kMore * before && double(points) - now < kFewerLeft * (double(points) - before) &&
+      isPaidByPoints(partsOfMesh(sheet.mesh), partsOfMesh(than.mesh)));
 }
 
 // Sizes tell sides where most of a solid is there. What lies open on both sides, as a landscape,
