@@ -133,22 +133,30 @@ std::vector<std::int32_t> faultyPoints(
   return faulty;
 }
 
+bool isTurned(const TriangleMesh& mesh, const Triangle& corners)
+{
+  const auto& [a, b, c] = corners;
+  const Vec3 ab = mesh.points[b] - mesh.points[a];
+  const Vec3 ac = mesh.points[c] - mesh.points[a];
+  const Vec3 normal = ab.cross(ac);
+  const double most = std::max(
+    { normal.dot(mesh.normals[a]), normal.dot(mesh.normals[b]), normal.dot(mesh.normals[c]) });
+  if (most >= 0.0)
+  {
+    return false; // nearly all of them
+  }
+  const double twiceArea = normal.norm();
+  const double longest = std::max(
+    { ab.squaredNorm(), ac.squaredNorm(), (mesh.points[c] - mesh.points[b]).squaredNorm() });
+  return twiceArea > kSliver * longest && most < kTurnedOver * twiceArea;
+}
+
 std::vector<std::size_t> turnedTriangles(const TriangleMesh& mesh)
 {
   std::vector<std::size_t> turned;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
   {
-    const Triangle& c = mesh.triangles[t];
-    const Vec3 normal = areaNormal(mesh, t);
-    const double twiceArea = normal.norm();
-    double longest = 0.0;
-    double most = -twiceArea;
-    for (int k = 0; k < 3; ++k)
-    {
-      longest = std::max(longest, (mesh.points[c[k]] - mesh.points[c[(k + 1) % 3]]).squaredNorm());
-      most = std::max(most, normal.dot(mesh.normals[c[k]]));
-    }
-    if (twiceArea > kSliver * longest && most < kTurnedOver * twiceArea)
+    if (isTurned(mesh, mesh.triangles[t]))
     {
       turned.push_back(t);
     }

@@ -26,8 +26,11 @@ bool isClosedFan(FanSide* begin, FanSide* end);
 std::vector<std::int32_t> faultyPoints(
   const TriangleMesh& mesh, const std::vector<Triangle>& around);
 
-/// Triangles that look against the normals of all their points; slivers, whose normals mean
-/// nothing, excepted.
+/// Whether a triangle looks against the normals of all its points; slivers, whose normals mean
+/// nothing, excepted. \param corners points of the mesh.
+bool isTurned(const TriangleMesh& mesh, const Triangle& corners);
+
+/// Those of the mesh that do.
 std::vector<std::size_t> turnedTriangles(const TriangleMesh& mesh);
 
 } // namespace hybridtree

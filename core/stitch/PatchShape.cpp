@@ -2,6 +2,7 @@
 #include "core/stitch/PatchShape.h"
 
 #include "core/mesh/MeshLinks.h"
+#include "core/stitch/CheckPatch.h"
 #include "core/stitch/DropRemoved.h"
 #include "core/stitch/ProjectPoints.h"
 #include "core/stitch/TriangleShape.h"
@@ -70,13 +71,16 @@ private:
   bool isOwn(Index v) const { return v >= firstOwn_; }
   bool isCreasePoint(Index v) const { return onCrease_[static_cast<std::size_t>(v)]; }
 
+  /// One that is turned over is as bad as one without area, and its normal says as little: left, it
+  /// would be a fault.
   double shape(std::size_t t) const
   {
     double& known = shapes_[t];
     if (known < 0.0)
     {
       const Triangle& c = links_.triangle(t);
-      known = shapeOf(this->point(c[0]), this->point(c[1]), this->point(c[2]));
+      known =
+        isTurned(mesh_, c) ? 1.0 : shapeOf(this->point(c[0]), this->point(c[1]), this->point(c[2]));
     }
     return known;
   }
