@@ -3,6 +3,7 @@
 
 #include "reconstruction/ConvectedSolid.h"
 #include "reconstruction/Holes.h"
+#include "reconstruction/NoiseWarning.h"
 #include "reconstruction/SolidBoundary.h"
 #include "reconstruction/SpatialOrder.h"
 #include "reconstruction/SurfaceParts.h"
@@ -189,6 +190,7 @@ ReconstructedSurface reconstruct(
   }
   progress.check();
   setAreaNormals(surface.mesh);
+  warnOfNoise(points, surface);
   return surface;
 }
 

@@ -2,6 +2,7 @@
 // Points scattered about a surface: going through more of them is no reason for handles.
 #include "core/mesh/MeshChecks.h"
 #include "reconstruction/Convection.h"
+#include "reconstruction/PointCloud.h"
 #include "reconstruction/SurfaceParts.h"
 #include "tests/reconstruction/DemoPoints.h"
 #include "tests/reconstruction/Samples.h"
@@ -14,6 +15,7 @@
 #include <cstdint>
 #include <optional>
 #include <ostream>
+#include <string>
 #include <vector>
 
 namespace
@@ -117,6 +119,88 @@ TEST_P(NoisyDemo, HasNoHandles)
 }
 
 INSTANTIATE_TEST_SUITE_P(PointSets, NoisyDemo, testing::Values("sphere_20k.xyz", "blobby.xyz"));
+
+// The value that a warning names for a property; none if it does not.
+std::optional<double> advised(const std::vector<std::string>& warnings, const std::string& name)
+{
+  for (const std::string& warning : warnings)
+  {
+    const std::size_t at = warning.find(name);
+    if (at != std::string::npos)
+    {
+      const std::size_t digit = warning.find_first_of("0123456789", at);
+      return std::stod(warning.substr(digit));
+    }
+  }
+  return std::nullopt;
+}
+
+double shareUsed(const std::vector<Vec3>& points, const ReconstructedSurface& surface)
+{
+  return double(surface.mesh.points.size()) / double(points.size());
+}
+
+// As the filter does with these properties.
+std::vector<Vec3> cleaned(
+  std::vector<Vec3> points, double radius, std::optional<double> outlierNeighbors)
+{
+  std::vector<std::int32_t> chosen = withoutDuplicates(points, allPoints(points));
+  if (outlierNeighbors)
+  {
+    chosen = withoutOutliers(points, chosen, static_cast<int>(*outlierNeighbors), 2.0);
+  }
+  chosen = thinned(points, smooth(points, chosen, radius), 0.25 * radius);
+  std::vector<Vec3> clean;
+  for (const std::int32_t point : chosen)
+  {
+    clean.push_back(points[point]);
+  }
+  return clean;
+}
+
+void expectAdviceHelps(const std::vector<Vec3>& points, double wanted)
+{
+  const ReconstructedSurface surface = reconstruct(points);
+  const std::optional<double> radius = advised(surface.warnings, "SmoothingRadius");
+  ASSERT_TRUE(radius);
+  const std::vector<Vec3> clean =
+    cleaned(points, *radius, advised(surface.warnings, "OutlierNeighbors"));
+  const ReconstructedSurface better = reconstruct(clean);
+  EXPECT_EQ(checkMesh(better.mesh).eulerCharacteristic, 2);
+  EXPECT_GT(shareUsed(clean, better), wanted);
+  EXPECT_GT(shareUsed(clean, better), shareUsed(points, surface) + 0.1);
+}
+
+TEST(NoiseWarning, ItsAdviceHelps)
+{
+  for (const double strays : { 0.0, 0.05 })
+  {
+    SCOPED_TRACE(strays);
+    expectAdviceHelps(noisy(randomSphere(5000, 11), 4.0 * kPi, { 3.0, strays }, 12), 0.95);
+  }
+}
+
+TEST(NoiseWarning, IsOfNoiseOnly)
+{
+  for (const Noise& noise : { Noise{ 0.0, 0.0 }, Noise{ 0.5, 0.0 }, Noise{ 0.5, 0.05 } })
+  {
+    EXPECT_TRUE(reconstruct(noisy(randomSphere(5000, 13), 4.0 * kPi, noise, 14)).warnings.empty());
+  }
+  std::vector<Vec3> twice = randomSphere(1000, 15);
+  const std::vector<Vec3> once = twice;
+  twice.insert(twice.end(), once.begin(), once.end());
+  EXPECT_TRUE(reconstruct(twice).warnings.empty());
+}
+
+TEST_P(NoisyDemo, IsHelpedByTheWarningsAdvice)
+{
+  const std::optional<std::vector<Vec3>> points = demoPoints(GetParam());
+  if (!points)
+  {
+    GTEST_SKIP() << GetParam() << " needs Debian's libcgal-demo: apt install libcgal-demo";
+  }
+  expectAdviceHelps(*points, 0.6);
+}
 
 TEST(SurfaceParts, ArePiecesHandlesAndHalfTheBorders)
 {
