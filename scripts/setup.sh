@@ -86,7 +86,7 @@ configure_and_build()
 # Runs a command that opens a window, with or without a screen.
 with_display()
 {
-  xvfb-run -a -s '-screen 0 1280x1024x24' "$@"
+  xvfb-run -a -s '-screen 0 1280x1024x24 -noreset' "$@"
 }
 
 setup()

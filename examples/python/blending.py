@@ -2,7 +2,7 @@
 """Control of blending, after figures 13, 15 and 16 of Angelidis and Cani (2002): what does blend and should not, the
 thickness along a curve of unequal elements, and a short element between two long ones.
 
-    xvfb-run -a -s "-screen 0 1280x1024x24" pvpython examples/python/blending.py [output folder]
+    xvfb-run -a -s "-screen 0 1280x1024x24 -noreset" pvpython examples/python/blending.py [output folder]
 
 Leaves limbs.png, thickness.png and corner.png: from above, everything blends, neighbours blend as in the paper, and
 neighbours blend by their distance along the skeleton; with the coarse skeletons inside.

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Figures made of subdivided skeletons, after Angelidis and Cani (2002): figures 15, 18 and 19.
 
-    xvfb-run -a -s "-screen 0 1280x1024x24" pvpython examples/python/creatures.py [output folder]
+    xvfb-run -a -s "-screen 0 1280x1024x24 -noreset" pvpython examples/python/creatures.py [output folder]
 
 Leaves bretzel.png and alien.png (neighbours blend, beside everything blends), nessie.png and bat.png (levels 0, 1
 and 2, with their skeletons), and of each the coarse skeleton and the surface as .vtp.

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Every skeleton's primitive as it is meshed directly, with its triangles, on one sheet.
 
-    xvfb-run -a -s "-screen 0 1280x1024x24" pvpython examples/python/skeletons.py [output folder]
+    xvfb-run -a -s "-screen 0 1280x1024x24 -noreset" pvpython examples/python/skeletons.py [output folder]
 
 Leaves skeletons.png. Curves are blue, sheets green, volumes clay, as in the table of docs/skeletons.md.
 """

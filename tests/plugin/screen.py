@@ -9,7 +9,7 @@ def run_paraview(xvfb_run, arguments, home, **variables):
     """Returns what it printed; ends it, and its screen, if it takes too long."""
     environment = dict(os.environ, HOME=home, XDG_CONFIG_HOME=home, XDG_RUNTIME_DIR=home, **variables)
     environment["DASHBOARD_TEST_FROM_CTEST"] = "1"  # ParaView's own tests: ask nobody for confirmation
-    command = [xvfb_run, "-a", "-s", "-screen 0 1280x1024x24", "paraview", "--dr", *arguments]
+    command = [xvfb_run, "-a", "-s", "-screen 0 1280x1024x24 -noreset", "paraview", "--dr", *arguments]
     process = subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
         text=True, start_new_session=True)
     try:
