@@ -5,8 +5,6 @@
 #include "reconstruction/JoinedParts.h"
 #include "reconstruction/SignedHarmonic.h"
 
-#include "core/base/Parallel.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -36,18 +34,14 @@ public:
 
   std::vector<SignedLink> collect(const Progress& progress) const
   {
-    const std::size_t count = tetrahedra_.points().size();
-    std::vector<std::vector<SignedLink>> parts((count + kGrain - 1) / kGrain);
-    parallelFor(count, kGrain,
-      [&](std::size_t begin, std::size_t end)
+    return collectInParts<SignedLink>(tetrahedra_.points().size(), kGrain, progress,
+      [&](std::size_t begin, std::size_t end, std::vector<SignedLink>& links)
       {
-        progress.check();
         for (std::size_t point = begin; point < end; ++point)
         {
-          this->addPoles(static_cast<std::int32_t>(point), parts[begin / kGrain]);
+          this->addPoles(static_cast<std::int32_t>(point), links);
         }
       });
-    return joined(parts);
   }
 
 private:

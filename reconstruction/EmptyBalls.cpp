@@ -87,11 +87,9 @@ std::vector<SignedLink> linksOfNeighbors(
   const Tetrahedralization& tetrahedra, const EmptyBalls& balls, const Progress& progress)
 {
   const auto count = static_cast<std::size_t>(tetrahedra.cellCount());
-  std::vector<std::vector<SignedLink>> parts((count + kGrain - 1) / kGrain);
-  parallelFor(count, kGrain,
-    [&](std::size_t begin, std::size_t end)
+  return collectInParts<SignedLink>(count, kGrain, progress,
+    [&](std::size_t begin, std::size_t end, std::vector<SignedLink>& links)
     {
-      progress.check();
       for (auto cell = static_cast<std::int32_t>(begin); cell < static_cast<std::int32_t>(end);
            ++cell)
       {
@@ -104,12 +102,11 @@ std::vector<SignedLink> linksOfNeighbors(
             const std::int32_t corner =
               first == Tetrahedralization::kInfinite ? tetrahedra.facet(cell, facet)[1] : first;
             const double cosine = balls.way(corner, cell).dot(balls.way(corner, other));
-            parts[begin / kGrain].push_back({ cell, other, EmptyBalls::weight(cosine) });
+            links.push_back({ cell, other, EmptyBalls::weight(cosine) });
           }
         }
       }
     });
-  return joined(parts);
 }
 
 } // namespace hybridtree

@@ -6,8 +6,6 @@
 #include "reconstruction/ParallelSort.h"
 #include "reconstruction/SignedHarmonic.h"
 
-#include "core/base/Parallel.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -85,19 +83,15 @@ private:
   template <typename Add>
   std::vector<SignedLink> collect(const Progress& progress, const Add& add) const
   {
-    const std::size_t count = tetrahedra_.points().size();
-    std::vector<std::vector<SignedLink>> parts((count + kGrain - 1) / kGrain);
-    parallelFor(count, kGrain,
-      [&](std::size_t begin, std::size_t end)
+    return collectInParts<SignedLink>(tetrahedra_.points().size(), kGrain, progress,
+      [&](std::size_t begin, std::size_t end, std::vector<SignedLink>& links)
       {
-        progress.check();
         Candidates candidates;
         for (std::size_t point = begin; point < end; ++point)
         {
-          add(static_cast<std::int32_t>(point), candidates, parts[begin / kGrain]);
+          add(static_cast<std::int32_t>(point), candidates, links);
         }
       });
-    return joined(parts);
   }
 
   // The largest at a point, largest first.

@@ -3,8 +3,6 @@
 
 #include "reconstruction/JoinedParts.h"
 
-#include "core/base/Parallel.h"
-
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
@@ -52,11 +50,9 @@ std::vector<std::int32_t> boundaryFacets(const Tetrahedralization& tetrahedra,
   const std::vector<std::uint8_t>& inside, const Progress& progress)
 {
   const auto count = static_cast<std::size_t>(tetrahedra.cellCount());
-  std::vector<std::vector<std::int32_t>> parts((count + kGrain - 1) / kGrain);
-  parallelFor(count, kGrain,
-    [&](std::size_t begin, std::size_t end)
+  return collectInParts<std::int32_t>(count, kGrain, progress,
+    [&](std::size_t begin, std::size_t end, std::vector<std::int32_t>& facets)
     {
-      progress.check();
       for (std::size_t k = begin; k < end; ++k)
       {
         const auto cell = static_cast<std::int32_t>(k);
@@ -66,12 +62,11 @@ std::vector<std::int32_t> boundaryFacets(const Tetrahedralization& tetrahedra,
             (tetrahedra.finite(cell) ||
               tetrahedra.cell(cell)[facet] == Tetrahedralization::kInfinite))
           {
-            parts[begin / kGrain].push_back(4 * cell + facet);
+            facets.push_back(4 * cell + facet);
           }
         }
       }
     });
-  return joined(parts);
 }
 
 std::vector<std::int32_t> pinchedVertices(const Tetrahedralization& tetrahedra,
@@ -99,22 +94,19 @@ std::vector<std::int32_t> pinchedVertices(const Tetrahedralization& tetrahedra,
       edges[next[v[corner]]++] = { v[(corner + 1) % 3], v[(corner + 2) % 3] };
     }
   }
-  std::vector<std::vector<std::int32_t>> parts((count + kGrain - 1) / kGrain);
-  parallelFor(count, kGrain,
-    [&](std::size_t begin, std::size_t end)
+  return collectInParts<std::int32_t>(count, kGrain, progress,
+    [&](std::size_t begin, std::size_t end, std::vector<std::int32_t>& pinched)
     {
-      progress.check();
       for (std::size_t vertex = begin; vertex < end; ++vertex)
       {
         LinkEdge* first = edges.data() + offset[vertex];
         LinkEdge* last = edges.data() + offset[vertex + 1];
         if (first != last && !isLoop(first, last))
         {
-          parts[begin / kGrain].push_back(static_cast<std::int32_t>(vertex));
+          pinched.push_back(static_cast<std::int32_t>(vertex));
         }
       }
     });
-  return joined(parts);
 }
 
 } // namespace hybridtree
