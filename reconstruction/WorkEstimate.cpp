@@ -34,22 +34,17 @@ std::size_t mostTetrahedra(std::size_t bytes)
   return static_cast<std::size_t>(static_cast<double>(bytes) / kBytesPerTetrahedron);
 }
 
-WorkEstimate estimateWork(const std::vector<Vec3>& points, const LevelOfDetail& detail)
+WorkEstimate estimateWork(std::size_t points, const Box3& bounds, const LevelOfDetail& detail)
 {
-  if (points.size() <= detail.vertices)
+  if (points <= detail.vertices)
   {
-    return estimateWork(points.size());
+    return estimateWork(points);
   }
-  const auto count = static_cast<double>(points.size());
+  const auto count = static_cast<double>(points);
   double vertices = static_cast<double>(detail.vertices);
   if (detail.vertices == 0)
   {
-    Box3 box;
-    for (const Vec3& point : points)
-    {
-      box.extend(point);
-    }
-    const double diagonal = points.empty() ? 0.0 : box.diagonal().norm();
+    const double diagonal = bounds.isEmpty() ? 0.0 : bounds.diagonal().norm();
     const double wanted = kVerticesPerTolerance * diagonal / detail.tolerance;
     vertices = wanted >= 0.0 && wanted < count ? wanted : count;
   }

@@ -6,7 +6,6 @@
 #include "core/base/Types.h"
 
 #include <cstddef>
-#include <vector>
 
 namespace hybridtree
 {
@@ -29,9 +28,9 @@ WorkEstimate estimateWork(std::size_t points);
 /// How many tetrahedra fit into so many bytes of memory with all that is made of them.
 std::size_t mostTetrahedra(std::size_t bytes);
 
-/// At a level of detail. How many vertices a tolerance needs is known only afterwards: seven for
-/// each time that it goes into the diagonal of the points are taken: of scans and samples mostly
-/// within a factor of 3.
-WorkEstimate estimateWork(const std::vector<Vec3>& points, const LevelOfDetail& detail);
+/// At a level of detail, of so many points within bounds. How many vertices a tolerance needs is
+/// known only afterwards: seven for each time that it goes into the diagonal of the points are
+/// taken: of scans and samples mostly within a factor of 3.
+WorkEstimate estimateWork(std::size_t points, const Box3& bounds, const LevelOfDetail& detail);
 
 } // namespace hybridtree

@@ -11,6 +11,7 @@
 #include "reconstruction/WorkEstimate.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
+#include "vtkCompositeDataSet.h"
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"
 #include "vtkDoubleArray.h"
@@ -21,6 +22,7 @@
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkIntArray.h"
+#include "vtkMath.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
@@ -81,14 +83,113 @@ std::vector<hybridtree::Vec3> readNormals(
   return normals;
 }
 
-double automaticTolerance(const std::vector<hybridtree::Vec3>& points)
+hybridtree::Box3 boundsOf(const std::vector<hybridtree::Vec3>& points)
 {
   hybridtree::Box3 bounds;
   for (const hybridtree::Vec3& point : points)
   {
     bounds.extend(point);
   }
+  return bounds;
+}
+
+double automaticTolerance(const hybridtree::Box3& bounds)
+{
   return bounds.isEmpty() ? 0.0 : kAutomaticTolerance * bounds.sizes().maxCoeff();
+}
+
+void checkParameters(vtkHybridTreeReconstruction& filter)
+{
+  using Filter = vtkHybridTreeReconstruction;
+  using hybridtree::InvalidParameter;
+  const int level = filter.GetLevelOfDetail();
+  if (level < Filter::ALL_POINTS || level > Filter::DETAIL_LEVEL)
+  {
+    throw InvalidParameter("LevelOfDetail", level,
+      "0 (all points), 1 (tolerance), 2 (target vertices) or 3 (detail level)");
+  }
+  if (filter.GetRemoveOutliers() && filter.GetOutlierNeighbors() > 1000)
+  {
+    throw InvalidParameter("OutlierNeighbors", filter.GetOutlierNeighbors(), "1 to 1000");
+  }
+  if (level == Filter::TARGET_VERTICES && filter.GetTargetVertices() < 4)
+  {
+    throw InvalidParameter("TargetVertices", filter.GetTargetVertices(), "4 or more");
+  }
+  const double share = filter.GetDetailLevel();
+  if (level == Filter::DETAIL_LEVEL && !(share >= 0.001 && share <= 1.0))
+  {
+    throw InvalidParameter("DetailLevel", share, "0.001 to 1, a share of the points");
+  }
+}
+
+// Where a face of the box widget is dragged past the opposite one, a length turns negative.
+hybridtree::Box3 refinedRegion(vtkHybridTreeReconstruction& filter)
+{
+  const hybridtree::Vec3 corner(filter.GetRefineOrigin());
+  const hybridtree::Vec3 opposite = corner + hybridtree::Vec3(filter.GetRefineLengths());
+  if (!opposite.allFinite())
+  {
+    return { corner, opposite }; // to be refused with the other bounds that are not finite
+  }
+  return { corner.cwiseMin(opposite), corner.cwiseMax(opposite) };
+}
+
+hybridtree::LevelOfDetail detailOf(
+  vtkHybridTreeReconstruction& filter, std::size_t count, const hybridtree::Box3& bounds)
+{
+  hybridtree::LevelOfDetail detail;
+  switch (filter.GetLevelOfDetail())
+  {
+    case vtkHybridTreeReconstruction::TOLERANCE:
+      detail.tolerance =
+        filter.GetTolerance() == 0.0 ? automaticTolerance(bounds) : filter.GetTolerance();
+      break;
+    case vtkHybridTreeReconstruction::TARGET_VERTICES:
+      detail.vertices = static_cast<std::size_t>(filter.GetTargetVertices());
+      break;
+    case vtkHybridTreeReconstruction::DETAIL_LEVEL:
+      detail.vertices = std::max<std::size_t>(
+        4, static_cast<std::size_t>(std::lround(filter.GetDetailLevel() * double(count))));
+      break;
+    default:
+      break;
+  }
+  if (filter.GetRefineRegion())
+  {
+    detail.region = refinedRegion(filter);
+    detail.regionTolerance = filter.GetRefineTolerance();
+  }
+  return detail;
+}
+
+hybridtree::WorkEstimate estimateOf(
+  vtkHybridTreeReconstruction& filter, std::size_t count, const hybridtree::Box3& bounds)
+{
+  return filter.GetLevelOfDetail() == vtkHybridTreeReconstruction::ALL_POINTS
+    ? hybridtree::estimateWork(count)
+    : hybridtree::estimateWork(count, bounds, detailOf(filter, count, bounds));
+}
+
+hybridtree::Box3 boundsOf(vtkDataObject* data)
+{
+  double ends[6];
+  vtkMath::UninitializeBounds(ends);
+  if (auto* set = vtkDataSet::SafeDownCast(data))
+  {
+    set->GetBounds(ends);
+  }
+  else if (auto* blocks = vtkCompositeDataSet::SafeDownCast(data))
+  {
+    blocks->GetBounds(ends);
+  }
+  hybridtree::Box3 bounds;
+  if (vtkMath::AreBoundsInitialized(ends))
+  {
+    bounds.extend(hybridtree::Vec3(ends[0], ends[2], ends[4]));
+    bounds.extend(hybridtree::Vec3(ends[1], ends[3], ends[5]));
+  }
+  return bounds;
 }
 
 int pointType(vtkDataSet* input)
@@ -187,9 +288,16 @@ int vtkHybridTreeReconstruction::FillInputPortInformation(int, vtkInformation* i
 
 //------------------------------------------------------------------------------
 int vtkHybridTreeReconstruction::RequestInformation(
-  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
+  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   outputs->GetInformationObject(0)->Set(vtkAlgorithm::CAN_HANDLE_PIECE_REQUEST(), 1);
+  // ParaView reads it right after this, so the panel has it before the work is asked for.
+  vtkDataObject* input = vtkDataObject::GetData(inputs[0]);
+  const vtkIdType points = input ? input->GetNumberOfElements(vtkDataObject::POINT) : 0;
+  if (points > 0)
+  {
+    this->KeepEstimate(estimateOf(*this, static_cast<std::size_t>(points), boundsOf(input)));
+  }
   return 1;
 }
 
@@ -239,6 +347,7 @@ int vtkHybridTreeReconstruction::RequestData(
 void vtkHybridTreeReconstruction::Reconstruct(vtkDataSet* input, vtkPolyData* output)
 {
   using namespace hybridtree;
+  checkParameters(*this);
   const FilterProgress progress(this);
   std::vector<Vec3> all = readPoints(input);
   std::vector<std::int32_t> chosen = withoutDuplicates(all, allPoints(all), progress);
@@ -270,39 +379,15 @@ void vtkHybridTreeReconstruction::Reconstruct(vtkDataSet* input, vtkPolyData* ou
     options.normals = readNormals(input, chosen);
   }
   const ProgressPart part(progress, 0.2, 1.0);
-  hybridtree::LevelOfDetail detail;
-  switch (this->LevelOfDetail)
-  {
-    case TOLERANCE:
-      detail.tolerance = this->Tolerance == 0.0 ? automaticTolerance(points) : this->Tolerance;
-      break;
-    case TARGET_VERTICES:
-      detail.vertices = static_cast<std::size_t>(this->TargetVertices);
-      break;
-    case DETAIL_LEVEL:
-      if (!std::isfinite(this->DetailLevel)) // which no clamp has kept out
-      {
-        throw InvalidParameter("DetailLevel", this->DetailLevel, "0.001 to 1");
-      }
-      detail.vertices = std::max<std::size_t>(
-        4, static_cast<std::size_t>(std::lround(this->DetailLevel * double(points.size()))));
-      break;
-    default:
-      break;
-  }
-  if (this->RefineRegion)
-  {
-    const Vec3 corner(this->RefineOrigin);
-    detail.region = Box3(corner, corner + Vec3(this->RefineLengths).cwiseAbs());
-    detail.regionTolerance = this->RefineTolerance;
-  }
+  const Box3 bounds = boundsOf(points);
+  const hybridtree::LevelOfDetail detail = detailOf(*this, points.size(), bounds);
   const bool keep = this->KeepState && this->LevelOfDetail != ALL_POINTS;
   if (!keep)
   {
     this->Kept->clear();
   }
-  this->TellEstimate(points.size(),
-    this->LevelOfDetail == ALL_POINTS ? estimateWork(points.size()) : estimateWork(points, detail));
+  this->KeepEstimate(estimateOf(*this, points.size(), bounds));
+  this->TellEstimate(points.size());
   ReconstructedSurface surface = keep   ? this->Kept->update(points, detail, options, part)
     : this->LevelOfDetail == ALL_POINTS ? reconstruct(points, options, part)
                                         : reconstruct(points, detail, options, part);
@@ -325,15 +410,19 @@ void vtkHybridTreeReconstruction::Reconstruct(vtkDataSet* input, vtkPolyData* ou
 }
 
 //------------------------------------------------------------------------------
-void vtkHybridTreeReconstruction::TellEstimate(
-  std::size_t points, const hybridtree::WorkEstimate& estimate)
+void vtkHybridTreeReconstruction::KeepEstimate(const hybridtree::WorkEstimate& estimate)
 {
-  this->EstimatedMemory = std::ldexp(estimate.bytes, -20);
-  this->EstimatedTime = estimate.seconds;
+  this->EstimatedMemory = std::ceil(std::ldexp(estimate.bytes, -20));
+  this->EstimatedTime = 0.1 * std::ceil(10.0 * estimate.seconds);
+}
+
+//------------------------------------------------------------------------------
+void vtkHybridTreeReconstruction::TellEstimate(std::size_t points)
+{
   std::ostringstream text;
   text << std::fixed << "Reconstructing " << points << " points, in about "
-       << std::setprecision(estimate.seconds < 10.0 ? 1 : 0) << std::max(0.1, estimate.seconds)
-       << " s and " << std::setprecision(0) << std::ceil(this->EstimatedMemory) << " MiB";
+       << std::setprecision(this->EstimatedTime < 10.0 ? 1 : 0) << this->EstimatedTime << " s and "
+       << std::setprecision(0) << this->EstimatedMemory << " MiB";
   this->SetProgressText(text.str().c_str());
   vtkDebugMacro(<< text.str());
 }

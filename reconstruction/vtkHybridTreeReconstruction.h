@@ -65,7 +65,7 @@ public:
   /**
    * Number of neighbours that decide on an outlier, 1 to 1000, default 16.
    */
-  vtkSetClampMacro(OutlierNeighbors, int, 1, 1000);
+  vtkSetMacro(OutlierNeighbors, int);
   vtkGetMacro(OutlierNeighbors, int);
   ///@}
 
@@ -150,7 +150,7 @@ public:
    * What decides how many points become vertices: ALL_POINTS (default) uses each, the others pick
    * points while they reconstruct, many where the surface bends and few where it is flat.
    */
-  vtkSetClampMacro(LevelOfDetail, int, ALL_POINTS, DETAIL_LEVEL);
+  vtkSetMacro(LevelOfDetail, int);
   vtkGetMacro(LevelOfDetail, int);
   void SetLevelOfDetailToAllPoints() { this->SetLevelOfDetail(ALL_POINTS); }
   void SetLevelOfDetailToTolerance() { this->SetLevelOfDetail(TOLERANCE); }
@@ -160,9 +160,9 @@ public:
 
   ///@{
   /**
-   * For TOLERANCE: greatest distance of an input point to the surface, world units, >= 0. 0 (default)
-   * stands for a thousandth of the longest side of the points' bounds. A warning tells of points
-   * that stay farther off whatever is done.
+   * For TOLERANCE: greatest distance of an input point to the surface, world units, >= 0. 0
+   * (default) stands for a thousandth of the longest side of the points' bounds. A warning tells of
+   * points that stay farther off whatever is done.
    */
   vtkSetMacro(Tolerance, double);
   vtkGetMacro(Tolerance, double);
@@ -173,7 +173,7 @@ public:
    * For TARGET_VERTICES: vertices of the surface, 4 or more, default 30000. All points are used
    * where there are no more.
    */
-  vtkSetClampMacro(TargetVertices, int, 4, VTK_INT_MAX);
+  vtkSetMacro(TargetVertices, int);
   vtkGetMacro(TargetVertices, int);
   ///@}
 
@@ -181,7 +181,7 @@ public:
   /**
    * For DETAIL_LEVEL: share of the points that become vertices, 0.001 to 1, no unit, default 0.25.
    */
-  vtkSetClampMacro(DetailLevel, double, 0.001, 1.0);
+  vtkSetMacro(DetailLevel, double);
   vtkGetMacro(DetailLevel, double);
   ///@}
 
@@ -190,7 +190,7 @@ public:
    * For all but ALL_POINTS: let the points in an axis-aligned box, from RefineOrigin to
    * RefineOrigin + RefineLengths in world coordinates, be no farther than RefineTolerance from the
    * surface (world units, >= 0; 0, the default: all points in the box are used). The vertices come
-   * on top of those of the level. Default off.
+   * on top of those of the level. A negative length reaches to the other side. Default off.
    */
   vtkSetMacro(RefineRegion, bool);
   vtkGetMacro(RefineRegion, bool);
@@ -216,9 +216,10 @@ public:
 
   ///@{
   /**
-   * Memory in MiB, above what the process had, and time in seconds that the last update was
-   * expected to take when its points were known and nothing had been done with them yet. Also told
-   * as the text of progress. Time is that on two cores of 2.6 GHz. 0 before the first update.
+   * Memory in MiB, above what the process has, and time in seconds that an update is expected to
+   * take: after UpdateInformation() for all points that the input has by then, after an update for
+   * those that were used; also told as the text of progress before its work begins. Time is that on
+   * two cores of 2.6 GHz. Rounded up to 1 MiB and 0.1 s; 0 as long as no points are known.
    */
   vtkGetMacro(EstimatedMemory, double);
   vtkGetMacro(EstimatedTime, double);
@@ -263,7 +264,8 @@ private:
   void operator=(const vtkHybridTreeReconstruction&) = delete;
 
   void Reconstruct(vtkDataSet* input, vtkPolyData* output);
-  void TellEstimate(std::size_t points, const hybridtree::WorkEstimate& estimate);
+  void KeepEstimate(const hybridtree::WorkEstimate& estimate);
+  void TellEstimate(std::size_t points);
 
   std::unique_ptr<hybridtree::KeptReconstruction> Kept;
 };

@@ -58,7 +58,7 @@ def convert(name, folder):
     """Write folder/<stem>.vtp for a member such as "points_3/kitten.xyz"; returns its path."""
     stem, extension = os.path.splitext(os.path.basename(name))
     path = os.path.join(folder, stem + ".vtp")
-    if os.path.exists(path):
+    if os.path.exists(path) and os.path.getmtime(path) > os.path.getmtime(__file__):
         return path
     if not os.path.exists(ARCHIVE):
         raise SystemExit(f"{ARCHIVE} is missing: install Debian's package libcgal-demo")

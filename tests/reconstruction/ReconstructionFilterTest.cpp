@@ -57,9 +57,11 @@ TEST(ReconstructionFilter, TellsWhatItWillTakeBeforeItStarts)
   vtkNew<vtkHybridTreeReconstruction> filter;
   EXPECT_EQ(filter->GetEstimatedMemory(), 0.0);
   filter->SetInputData(input);
-  filter->Update();
+  filter->UpdateInformation();
   const double all = filter->GetEstimatedMemory();
   EXPECT_GT(all, 1.0);
+  filter->Update();
+  EXPECT_EQ(filter->GetEstimatedMemory(), all);
   EXPECT_GT(filter->GetEstimatedTime(), 0.0);
   EXPECT_NE(std::string(filter->GetProgressText()).find("4000 points"), std::string::npos);
   filter->SetLevelOfDetailToTargetVertices();
@@ -281,12 +283,31 @@ TEST(ReconstructionFilter, NamesTheParameterThatIsWrong)
     expectError(
       points, "SmoothingRadius", [&](auto* filter) { filter->SetSmoothingRadius(radius); });
   }
-  expectError(points, "DetailLevel",
-    [&](auto* filter)
+  for (const double share : { nan, 0.0, 1.5 })
+  {
+    expectError(points, "0.001 to 1",
+      [&](auto* filter)
+      {
+        filter->SetLevelOfDetailToDetailLevel();
+        filter->SetDetailLevel(share);
+      });
+  }
+  expectError(points, "3 (detail level)", [](auto* filter) { filter->SetLevelOfDetail(4); });
+  expectError(points, "TargetVertices",
+    [](auto* filter)
     {
-      filter->SetLevelOfDetailToDetailLevel();
-      filter->SetDetailLevel(nan);
+      filter->SetLevelOfDetailToTargetVertices();
+      filter->SetTargetVertices(3);
     });
+  for (const int neighbors : { 0, 1001 })
+  {
+    expectError(points, "OutlierNeighbors",
+      [&](auto* filter)
+      {
+        filter->RemoveOutliersOn();
+        filter->SetOutlierNeighbors(neighbors);
+      });
+  }
   const auto refine = [](auto* filter)
   {
     filter->SetLevelOfDetailToTargetVertices();

@@ -82,13 +82,18 @@ TEST(WorkEstimate, TellsTheMemoryOfAllPointsWithinAFactorOfThree)
 TEST(WorkEstimate, TellsTheMemoryOfALevelOfDetailWithinAFactorOfThree)
 {
   const std::vector<Vec3> points = randomTorus(1.0, 0.4, 60000, 4);
+  Box3 bounds;
+  for (const Vec3& point : points)
+  {
+    bounds.extend(point);
+  }
   for (const LevelOfDetail& detail :
     { LevelOfDetail{ 0.0, 3000 }, LevelOfDetail{ 0.0, 20000 }, LevelOfDetail{ 0.002, 0 } })
   {
     SCOPED_TRACE(detail.vertices);
     const PeakMemory memory;
     reconstruct(points, detail, {}, memory);
-    const double estimate = estimateWork(points, detail).bytes;
+    const double estimate = estimateWork(points.size(), bounds, detail).bytes;
     EXPECT_LT(memory.peak(), 3.0 * estimate);
     EXPECT_GT(memory.peak(), estimate / 3.0);
   }
