@@ -15,25 +15,28 @@ thread_local std::array<std::vector<std::int32_t>, 2> met;
 
 } // namespace
 
-void FarGroup::findNear()
+void FarGroup::findNear(double farthest)
 {
-  for (const BlendPiece& piece : pieces)
+  for (const BlendPieces::Place* place : places)
   {
-    for (const GroupDistance& of : piece.place->distances)
+    for (const GroupDistance& of : place->distances)
     {
       near.push_back(of.group);
     }
   }
   std::sort(near.begin(), near.end());
   near.erase(std::unique(near.begin(), near.end()), near.end());
-  for (const BlendPiece& piece : pieces)
+  nearness.assign(this->size() * this->columns(), 0.0);
+  double* row = nearness.data();
+  for (const BlendPieces::Place* place : places)
   {
-    std::vector<std::uint32_t>& at = nearAt.emplace_back();
-    for (const GroupDistance& of : piece.place->distances)
+    row[0] = 1.0;
+    for (const GroupDistance& of : place->distances)
     {
       const auto found = std::lower_bound(near.begin(), near.end(), of.group);
-      at.push_back(static_cast<std::uint32_t>(found - near.begin()));
+      row[1 + (found - near.begin())] = farthest - of.distance;
     }
+    row += this->columns();
   }
 }
 

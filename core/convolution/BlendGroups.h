@@ -18,14 +18,22 @@ struct BlendPiece
 /// What is known of one group where fields have no end (the Cauchy kernel).
 struct FarGroup
 {
-  std::vector<BlendPiece> pieces;
+  ///@{
+  /// Pieces, in this order.
+  std::vector<const SegmentElement*> segments;
+  std::vector<const TriangleElement*> triangles;
+  ///@}
+  std::vector<const BlendPieces::Place*> places; ///< of them
   CauchyBound bound;
-  std::vector<std::int32_t> near; ///< groups that any piece is near, itself too, ascending
-  /// Per piece: where in `near` the groups of its place's distances are.
-  std::vector<std::vector<std::uint32_t>> nearAt;
+  std::vector<std::int32_t> members; ///< groups of its sum: itself and its neighbours, ascending
+  std::vector<std::int32_t> near;    ///< groups that any piece is near, itself too, ascending
+  /// Per piece a row of 1 + near.size() numbers: 1, and by how much it is nearer to each of `near`
+  /// than what is farthest.
+  std::vector<double> nearness;
 
-  /// Sets the two last.
-  void findNear();
+  std::size_t size() const { return places.size(); }
+  std::size_t columns() const { return 1 + near.size(); }
+  void findNear(double farthest); ///< sets the two last
 };
 
 /// Which elements of a field belong together.

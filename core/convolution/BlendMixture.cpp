@@ -10,7 +10,7 @@ BlendMixture::BlendMixture(PieceFields& fields, const std::vector<double>& bound
   : fields_(fields)
   , share_(fields.pieces().groups().control)
   , bounds_(bounds)
-  , sets_(fields.pieces(), bounds, nullptr)
+  , sets_(fields.pieces(), bounds)
   , points_(fields.points().size)
   , best_(points_)
   , total_(points_)

@@ -6,40 +6,27 @@
 namespace hybridtree
 {
 
-BlendRows::BlendRows(const PiecesNear& pieces, const std::vector<char>& isUsed, Sums sums,
-  PointBatch points, bool haveGradients)
+BlendRows::BlendRows(
+  const PiecesNear& pieces, const std::vector<char>& isUsed, PointBatch points, bool haveGradients)
   : pieces_(pieces)
   , share_(pieces.groups().control)
   , isUsed_(isUsed)
-  , sums_(sums)
   , haveGradients_(haveGradients)
   , size_((points.size + kRowStep - 1) / kRowStep * kRowStep)
   , points_(size_)
   , singles_(kMostPoints * (haveGradients ? 4 : 1) * this->findPieces())
   , groups_(kOfGroup * pieces.groupCount())
-  , pairs_(kMostPoints * this->findPairs())
   , totals_(kMostPoints * kTotals)
 {
   for (std::size_t k = 0; k < size_; ++k)
   {
     points_.batch().set(k, points[std::min(k, points.size - 1)]);
   }
-  // Of each row what is used.
-  const auto clear = [&](ScratchArray& rows)
+  for (std::size_t at = 0; at < groups_.size(); at += kMostPoints)
   {
-    for (std::size_t at = 0; at < rows.size(); at += kMostPoints)
-    {
-      std::fill_n(rows.data() + at, size_, 0.0);
-    }
-  };
-  clear(groups_);
-  clear(pairs_);
+    std::fill_n(groups_.data() + at, size_, 0.0); // of each row what is used
+  }
   this->integrate();
-}
-
-const FarGroup& BlendRows::farGroup(std::size_t number) const
-{
-  return pieces_.groups().farGroups[static_cast<std::size_t>(pieces_.group(number))];
 }
 
 // Segments first, so that their rows are together. \return how many.
@@ -51,7 +38,7 @@ std::size_t BlendRows::findPieces()
     {
       for (std::size_t k = pieces_.begin(number); isUsed_[number] && k < pieces_.end(number); ++k)
       {
-        add(pieces_[k], { pieces_[k].place, number, k - pieces_.begin(number) });
+        add(pieces_[k], { pieces_[k].place, number });
       }
     }
   };
@@ -90,42 +77,15 @@ void BlendRows::forNear(std::size_t piece, const Body& body) const
   }
 }
 
-// \return how many.
-std::size_t BlendRows::findPairs()
-{
-  std::size_t count = 0;
-  if (sums_ == kMany)
-  {
-    for (std::size_t number = 0; number < isUsed_.size(); ++number)
-    {
-      pairsAt_.push_back(count);
-      count += isUsed_[number] ? this->farGroup(number).near.size() : 0;
-    }
-  }
-  return count;
-}
-
 // Where a piece's field goes, in near_.
 void BlendRows::findRows(std::size_t piece)
 {
   near_.clear();
-  const auto& [place, own, index] = places_[piece];
-  near_.push_back({ 1.0, this->of(own, kOwn) });
-  if (sums_ == kOne)
-  {
-    this->forNear(piece,
-      [&](std::size_t other, double nearness) {
-        near_.push_back({ nearness, this->of(other, kNear) });
-      });
-    return;
-  }
-  const std::vector<std::uint32_t>& at = this->farGroup(own).nearAt[index];
-  double* first = pairs_.data() + kMostPoints * pairsAt_[own];
-  for (std::size_t k = 0; k < at.size(); ++k)
-  {
-    near_.push_back(
-      { share_.farthest() - place->distances[k].distance, first + kMostPoints * at[k] });
-  }
+  near_.push_back({ 1.0, this->of(places_[piece].number, kOwn) });
+  this->forNear(piece,
+    [&](std::size_t other, double nearness) {
+      near_.push_back({ nearness, this->of(other, kNear) });
+    });
 }
 
 void BlendRows::integrate()
@@ -145,48 +105,31 @@ void BlendRows::integrate()
   }
 }
 
-void BlendRows::addPairs(const std::size_t* begin, const std::size_t* end)
+const double* BlendRows::sum()
 {
-  std::for_each(
-    begin, end, [&](std::size_t member) { std::fill_n(this->of(member, kNear), size_, 0.0); });
-  for (const std::size_t* member = begin; member != end; ++member)
-  {
-    const double* from = pairs_.data() + kMostPoints * pairsAt_[*member];
-    for (const std::int32_t group : this->farGroup(*member).near)
-    {
-      const std::int32_t other = pieces_.find(group);
-      if (other >= 0 && isMember_[static_cast<std::size_t>(other)])
-      {
-        const ScaledRow to{ 1.0, this->of(static_cast<std::size_t>(other), kNear) };
-        kernels_.addScaled(from, size_, &to, 1);
-      }
-      from += kMostPoints;
-    }
-  }
-}
-
-const double* BlendRows::sum(const std::size_t* begin, const std::size_t* end)
-{
-  isMember_.assign(isUsed_.size(), 0);
   varies_.assign(isUsed_.size(), 0);
   std::fill_n(totals_.data(), totals_.size(), 0.0);
   const ScaledRow whole{ 1.0, this->total(kWhole) };
-  for (const std::size_t* member = begin; member != end; ++member)
+  const auto forMembers = [&](const auto& body)
   {
-    isMember_[*member] = 1;
-    kernels_.addScaled(this->of(*member, kOwn), size_, &whole, 1);
-  }
-  if (sums_ == kMany)
-  {
-    this->addPairs(begin, end);
-  }
-  for (const std::size_t* member = begin; member != end; ++member)
-  {
-    varies_[*member] = kernels_.findShares(share_.begin(), share_.farthest(), size_,
-      { this->total(kWhole), this->of(*member, kNear), this->of(*member, kOwn),
-        this->of(*member, kShare), this->of(*member, kStep), this->total(kShared),
-        this->total(kShift) });
-  }
+    for (std::size_t number = 0; number < isUsed_.size(); ++number)
+    {
+      if (isUsed_[number])
+      {
+        body(number);
+      }
+    }
+  };
+  forMembers(
+    [&](std::size_t member) { kernels_.addScaled(this->of(member, kOwn), size_, &whole, 1); });
+  forMembers(
+    [&](std::size_t member)
+    {
+      varies_[member] = kernels_.findShares(share_.begin(), share_.farthest(), size_,
+        { this->total(kWhole), this->of(member, kNear), this->of(member, kOwn),
+          this->of(member, kShare), this->of(member, kStep), this->total(kShared),
+          this->total(kShift) });
+    });
   return this->total(kShared);
 }
 
@@ -198,10 +141,6 @@ VectorBatch BlendRows::gradient()
   for (std::size_t piece = 0; piece < places_.size(); ++piece)
   {
     const std::size_t own = places_[piece].number;
-    if (!isMember_[own])
-    {
-      continue;
-    }
     near_.clear();
     this->forNear(piece,
       [&](std::size_t other, double nearness)

@@ -7,31 +7,19 @@
 namespace hybridtree
 {
 
-/// Every piece of some groups integrated once at a few points, in vectors, for any of the sums G_i
-/// over those groups (BlendedField.h) and their gradients.
+/// Every piece of some groups integrated once at a few points, in vectors, for the sum over those
+/// groups (BlendedField.h) and its gradient.
 class BlendRows
 {
 public:
   static constexpr std::size_t kMostPoints = 64;
 
-  enum Sums
-  {
-    kOne, ///< of all the groups
-    kMany ///< of any of them: what pieces are to each group is kept, by their groups
-  };
-
-  /// \param isUsed per number of `pieces`. \pre 1 to kMostPoints points; for kMany all pieces of
-  /// the groups, with groups().farGroups.
-  BlendRows(const PiecesNear& pieces, const std::vector<char>& isUsed, Sums sums, PointBatch points,
+  /// \param isUsed per number of `pieces`: the group is in the sum. \pre 1 to kMostPoints points.
+  BlendRows(const PiecesNear& pieces, const std::vector<char>& isUsed, PointBatch points,
     bool haveGradients);
 
-  /// f of a group, per point.
-  const double* field(std::size_t number) const { return groups_.data() + number * kOfGroup; }
-
-  /// G of the groups of the range [begin, end), per point; those of all, for kOne. Valid until the
-  /// next.
-  const double* sum(const std::size_t* begin, const std::size_t* end);
-  /// Of the last sum. \pre haveGradients.
+  const double* sum(); ///< per point
+  /// Of the sum. \pre haveGradients; sum() was asked for.
   VectorBatch gradient();
 
 private:
@@ -57,7 +45,6 @@ private:
   {
     const BlendPieces::Place* place;
     std::size_t number; // of its group
-    std::size_t index;  // among those of that
   };
 
   double* total(Total row) { return totals_.data() + row * kMostPoints; }
@@ -69,33 +56,26 @@ private:
   {
     return singles_.data() + piece * (haveGradients_ ? 4 : 1) * kMostPoints;
   }
-  const FarGroup& farGroup(std::size_t number) const;
   template <typename Body>
   void forNear(std::size_t piece, const Body& body) const;
   std::size_t findPieces();
-  std::size_t findPairs();
   void integrate();
   void findRows(std::size_t piece);
-  void addPairs(const std::size_t* begin, const std::size_t* end);
 
   const PiecesNear& pieces_;
   const ShareKernels& kernels_ = shareKernels();
   BlendShare share_;
   std::vector<char> isUsed_;
-  Sums sums_;
   bool haveGradients_;
-  std::size_t size_;           // of points, with those that fill the last vector
-  std::vector<char> isMember_; // of the last sum, per number
-  std::vector<char> varies_;   // its share does in the last sum, per number
+  std::size_t size_;         // of points, with those that fill the last vector
+  std::vector<char> varies_; // its share does, per number
   std::vector<const SegmentElement*> segments_;
   std::vector<const TriangleElement*> triangles_;
-  std::vector<PlacedPiece> places_;  // of segments, then of triangles
-  std::vector<std::size_t> pairsAt_; // per number: first row of pairs_, one for each of `near`
+  std::vector<PlacedPiece> places_; // of segments, then of triangles
   std::vector<ScaledRow> near_;
   ScratchVectors points_;
   ScratchArray singles_; // per piece: value and gradient
   ScratchArray groups_;  // per number: OfGroup
-  ScratchArray pairs_;   // sum of f_c (farthest - d(c, j)) over the pieces c of a group
   ScratchArray totals_;
 };
 

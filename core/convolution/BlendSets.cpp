@@ -13,19 +13,12 @@ namespace
 class Candidates
 {
 public:
-  Candidates(const PiecesNear& pieces, const std::vector<double>& bounds,
-    const std::vector<std::int32_t>* centers)
+  Candidates(const PiecesNear& pieces, const std::vector<double>& bounds)
     : pieces_(pieces)
     , groups_(pieces.groups())
     , words_((bounds.size() + 63) / 64)
     , centers_(groups_.size(), GroupNumbers::kCenters)
   {
-    if (centers)
-    {
-      std::for_each(
-        centers->begin(), centers->end(), [&](std::int32_t center) { this->addCenter(center); });
-    }
-    isClosed_ = centers != nullptr;
     for (std::size_t number = 0; number < bounds.size(); ++number)
     {
       if (bounds[number] > 0.0)
@@ -55,14 +48,7 @@ private:
   {
     const auto add = [&](std::int32_t center)
     {
-      if (!isClosed_)
-      {
-        this->addCenter(center);
-      }
-      if (centers_.find(center) < 0)
-      {
-        return;
-      }
+      this->addCenter(center);
       const auto at = static_cast<std::size_t>(centers_.find(center));
       bits_[at * words_ + number / 64] |= std::uint64_t(1) << (number % 64);
       // Members ascend in all sets, so equal sets have equal bounds.
@@ -76,7 +62,6 @@ private:
 
   const PiecesNear& pieces_;
   const BlendGroups& groups_;
-  bool isClosed_ = false;
   std::size_t words_;
   GroupNumbers centers_;
   std::vector<double> bounds_;
@@ -85,10 +70,9 @@ private:
 
 } // namespace
 
-BlendSets::BlendSets(const PiecesNear& pieces, const std::vector<double>& bounds,
-  const std::vector<std::int32_t>* centers)
+BlendSets::BlendSets(const PiecesNear& pieces, const std::vector<double>& bounds)
 {
-  const Candidates candidates(pieces, bounds, centers);
+  const Candidates candidates(pieces, bounds);
   const std::size_t words = candidates.words();
   std::vector<std::size_t> order(candidates.size());
   std::iota(order.begin(), order.end(), std::size_t(0));

@@ -19,9 +19,7 @@ public:
   };
 
   /// \param bounds per number: of its field at any of the points. Groups with 0 are in no set.
-  /// \param centers the i of the sums; null for all with a member.
-  BlendSets(const PiecesNear& pieces, const std::vector<double>& bounds,
-    const std::vector<std::int32_t>* centers);
+  BlendSets(const PiecesNear& pieces, const std::vector<double>& bounds);
 
   std::size_t size() const { return ranges_.size(); }
   Set operator[](std::size_t k) const;

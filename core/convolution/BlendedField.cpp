@@ -4,6 +4,7 @@
 #include "core/base/Scratch.h"
 #include "core/convolution/BlendSelector.h"
 #include "core/convolution/BlendSums.h"
+#include "core/convolution/FarBlends.h"
 #include "core/convolution/OwnBlend.h"
 
 #include <algorithm>
@@ -88,28 +89,34 @@ private:
   ScratchVectors gradient_;
 };
 
-std::vector<FarGroup> farGroups(const ConvolutionField& pieces, const BlendPieces& places)
+std::vector<FarGroup> farGroups(
+  const ConvolutionField& pieces, const BlendPieces& places, double farthest)
 {
   std::vector<FarGroup> groups(places.neighbours.size());
   ElementSelection all;
   pieces.select(pieces.influenceBounds(), all);
-  const auto add = [&](const auto* element, const BlendPiece& piece)
+  const auto add = [&](const auto* element, const BlendPieces::Place& place, auto list)
   {
-    FarGroup& group = groups[static_cast<std::size_t>(piece.place->group)];
-    group.pieces.push_back(piece);
+    FarGroup& group = groups[static_cast<std::size_t>(place.group)];
+    (group.*list).push_back(element);
+    group.places.push_back(&place);
     group.bound.add(*element, pieces.kernel());
   };
   for (const SegmentElement* segment : all.segments)
   {
-    add(segment, { segment, nullptr, &places.segmentPlaces[pieces.index(segment)] });
+    add(segment, places.segmentPlaces[pieces.index(segment)], &FarGroup::segments);
   }
   for (const TriangleElement* triangle : all.triangles)
   {
-    add(triangle, { nullptr, triangle, &places.trianglePlaces[pieces.index(triangle)] });
+    add(triangle, places.trianglePlaces[pieces.index(triangle)], &FarGroup::triangles);
   }
-  for (FarGroup& group : groups)
+  for (std::size_t k = 0; k < groups.size(); ++k)
   {
-    group.findNear();
+    FarGroup& group = groups[k];
+    group.members = places.neighbours[k];
+    const auto own = static_cast<std::int32_t>(k);
+    group.members.insert(std::upper_bound(group.members.begin(), group.members.end(), own), own);
+    group.findNear(farthest);
   }
   return groups;
 }
@@ -138,7 +145,7 @@ BlendedField::BlendedField(
     places_.triangles = {};
     if (kernel.kind == KernelKind::Cauchy)
     {
-      farGroups_ = farGroups(*pieces_, places_);
+      farGroups_ = farGroups(*pieces_, places_, BlendShare(control).farthest());
     }
   }
 }
@@ -186,9 +193,7 @@ void BlendedField::ownBlend(std::int32_t group, const BlendSelection* selection,
   const BlendGroups groups = this->groups();
   if (!groups.isLocal())
   {
-    std::vector<std::int32_t> members = places_.neighbours[static_cast<std::size_t>(group)];
-    members.push_back(group);
-    hybridtree::ownBlend(PiecesNear(groups, members), group, points, value, gradient);
+    ownFarBlend(groups, group, points, value, gradient);
   }
   else if (!selection)
   {

@@ -9,8 +9,7 @@ namespace hybridtree
 /// The field under blending control by its definition (BlendedField.h), before the fading of the
 /// Cauchy kernel: the largest of the sums G_i.
 ///
-/// Each piece near the points is integrated once for all sums (BlendMixture, BlendRows). With the
-/// Cauchy kernel first one sum is taken, and then those that bounds leave a chance to be larger.
+/// Each piece near the points is integrated once for all sums (BlendMixture, FarBlends).
 ///
 /// Overwrites `value`, and `gradient` unless null. When groups.isLocal() both hold the plain sum
 /// before, and keep it where that is the field.

@@ -12,13 +12,11 @@ void ownBlend(const PiecesNear& pieces, std::int32_t group, PointBatch points, d
   const VectorBatch* gradient)
 {
   std::vector<char> isMember(pieces.groupCount(), 0);
-  std::vector<std::size_t> members;
   const auto add = [&](std::int32_t member)
   {
     if (pieces.find(member) >= 0)
     {
-      members.push_back(static_cast<std::size_t>(pieces.find(member)));
-      isMember[members.back()] = 1;
+      isMember[static_cast<std::size_t>(pieces.find(member))] = 1;
     }
   };
   add(group);
@@ -28,9 +26,8 @@ void ownBlend(const PiecesNear& pieces, std::int32_t group, PointBatch points, d
   {
     const PointBatch part =
       points.slice(begin, std::min(BlendRows::kMostPoints, points.size - begin));
-    BlendRows rows(pieces, isMember, BlendRows::kOne, part, gradient != nullptr);
-    std::copy_n(
-      rows.sum(members.data(), members.data() + members.size()), part.size, value + begin);
+    BlendRows rows(pieces, isMember, part, gradient != nullptr);
+    std::copy_n(rows.sum(), part.size, value + begin);
     if (gradient)
     {
       const VectorBatch slopes = rows.gradient();

@@ -6,7 +6,7 @@
 namespace hybridtree
 {
 
-/// G_i of one group i alone (BlendedField.h), before the fading of the Cauchy kernel.
+/// G_i of one group i alone (BlendedField.h), where fields end.
 ///
 /// Every piece of the groups in that sum is integrated once, with its gradient, for all of D_ij.
 /// Overwrites `value`, and `gradient` unless null.

@@ -46,18 +46,6 @@ PiecesNear::PiecesNear(const BlendGroups& groups, const Box3& box)
   }
 }
 
-PiecesNear::PiecesNear(const BlendGroups& groups, const std::vector<std::int32_t>& members)
-  : groups_(groups), numbers_(groups.size()), begin_{ 0 }
-{
-  for (const std::int32_t member : members)
-  {
-    numbers_.add(member);
-    const std::vector<BlendPiece>& own = groups.farGroups[static_cast<std::size_t>(member)].pieces;
-    pieces_.insert(pieces_.end(), own.begin(), own.end());
-    begin_.push_back(pieces_.size());
-  }
-}
-
 PieceFields::PieceFields(const PiecesNear& pieces, PointBatch points)
   : pieces_(pieces)
   , kernel_(pieces.groups().whole.kernel())

@@ -13,8 +13,6 @@ class PiecesNear
 public:
   /// Those that reach a box, and their groups.
   PiecesNear(const BlendGroups& groups, const Box3& box);
-  /// All of some groups. \pre groups.farGroups.
-  PiecesNear(const BlendGroups& groups, const std::vector<std::int32_t>& members);
 
   const BlendGroups& groups() const { return groups_; }
   std::size_t size() const { return pieces_.size(); }

@@ -28,6 +28,50 @@ void addScaled(const double* from, std::size_t size, const ScaledRow* to, std::s
   }
 }
 
+// Of `Count` columns.
+template <std::size_t Count>
+HWY_INLINE void addColumns(const double* row, std::size_t stride, std::size_t count,
+  const double* weights, std::size_t columns, double scale, std::size_t at, const ProductColumn* to)
+{
+  const D d;
+  V sum[Count];
+  for (V& of : sum)
+  {
+    of = hn::Zero(d);
+  }
+  for (std::size_t k = 0; k < count; ++k, row += stride, weights += columns)
+  {
+    const V value = hn::LoadU(d, row);
+    for (std::size_t n = 0; n < Count; ++n)
+    {
+      sum[n] = hn::MulAdd(set(weights[to[n].column]), value, sum[n]);
+    }
+  }
+  for (std::size_t n = 0; n < Count; ++n)
+  {
+    double* result = to[n].row + at;
+    hn::StoreU(hn::MulAdd(set(scale), sum[n], hn::LoadU(d, result)), d, result);
+  }
+}
+
+void addProducts(const double* from, std::size_t stride, std::size_t count, const double* weights,
+  std::size_t columns, double scale, std::size_t size, const ProductColumn* to, std::size_t wanted)
+{
+  constexpr std::size_t kBlock = 4;
+  for (std::size_t at = 0; at < size; at += hn::Lanes(D()))
+  {
+    std::size_t n = 0;
+    for (; n + kBlock <= wanted; n += kBlock)
+    {
+      addColumns<kBlock>(from + at, stride, count, weights, columns, scale, at, to + n);
+    }
+    for (; n < wanted; ++n)
+    {
+      addColumns<1>(from + at, stride, count, weights, columns, scale, at, to + n);
+    }
+  }
+}
+
 bool findShares(double begin, double farthest, std::size_t size, const ShareRows& rows)
 {
   const D d;
@@ -78,7 +122,7 @@ void addGradient(const double* share, const double* shift, const ScaledRow* step
 
 const ShareKernels* kernels()
 {
-  static const ShareKernels kernels = { &addScaled, &findShares, &addGradient };
+  static const ShareKernels kernels = { &addScaled, &addProducts, &findShares, &addGradient };
   return &kernels;
 }
 

@@ -13,6 +13,13 @@ struct ScaledRow
   double* row;
 };
 
+/// A column of a matrix, and the row that its product goes into.
+struct ProductColumn
+{
+  std::size_t column;
+  double* row;
+};
+
 /// Rows that a share is found from, and those that it makes (BlendedField.h), of one group j.
 struct ShareRows
 {
@@ -31,6 +38,11 @@ struct ShareKernels
 {
   /// Each of `to` grows by scale * from.
   void (*addScaled)(const double* from, std::size_t size, const ScaledRow* to, std::size_t count);
+  /// The row of each of `to` grows by scale times the product of `count` rows, `stride` apart, and
+  /// its column of the matrix `weights` of count x columns.
+  void (*addProducts)(const double* from, std::size_t stride, std::size_t count,
+    const double* weights, std::size_t columns, double scale, std::size_t size,
+    const ProductColumn* to, std::size_t wanted);
   /// alpha falls from 1 at `begin` to 0 one later. \return whether any step is not 0.
   bool (*findShares)(double begin, double farthest, std::size_t size, const ShareRows& rows);
   /// weight = share + shift - sum of scale * row; each of `to` grows by weight * gradient, both
