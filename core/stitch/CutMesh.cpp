@@ -2,7 +2,6 @@
 #include "core/stitch/CutMesh.h"
 
 #include "core/stitch/FillPolygon.h"
-#include "core/stitch/RefinePolygon.h"
 
 #include <algorithm>
 #include <cmath>
@@ -385,43 +384,10 @@ private:
         vertex = static_cast<std::int32_t>(vertices.size() - 1);
       }
     }
-    std::vector<Triangle> pieces = fillPolygon(std::move(borders), place);
-    this->refine(normal.stableNormalized(), pieces, vertices);
-    for (const Triangle& c : pieces)
+    for (const Triangle& c : fillPolygon(std::move(borders), place))
     {
       result_.pieces.push_back({ vertices[c[0]], vertices[c[1]], vertices[c[2]] });
       result_.pieceOf.push_back(t);
-    }
-  }
-
-  /// Adds vertices in the midst of what is left of a triangle, if it is so large that it would
-  /// reach the cells as needles.
-  void refine(
-    const Vec3& normal, std::vector<Triangle>& pieces, std::vector<std::int32_t>& vertices)
-  {
-    const Vec3 u = normal.unitOrthogonal();
-    const Vec3 v = normal.cross(u);
-    const Vec3& origin = mesh_.points[mesh_.triangles[current_][0]];
-    constexpr double kLarge = 3.0; // cells
-    std::vector<Eigen::Vector2d> place;
-    Eigen::AlignedBox2d box;
-    for (const std::int32_t vertex : vertices)
-    {
-      const Vec3 p =
-        (vertex < points_ ? mesh_.points[vertex] : result_.vertices[vertex - points_].point) -
-        origin;
-      place.emplace_back(u.dot(p), v.dot(p));
-      box.extend(place.back());
-    }
-    if (!(box.sizes().maxCoeff() > kLarge * grid_.cellSize))
-    {
-      return;
-    }
-    refinePolygon(pieces, place);
-    for (std::size_t k = vertices.size(); k < place.size(); ++k)
-    {
-      vertices.push_back(points_ + static_cast<std::int32_t>(result_.vertices.size()));
-      result_.vertices.push_back(this->cutVertex(origin + place[k].x() * u + place[k].y() * v));
     }
   }
 
@@ -437,7 +403,7 @@ private:
     {
       made.used = true;
       made.number = points_ + static_cast<std::int32_t>(result_.vertices.size());
-      result_.vertices.push_back(this->cutVertex(positions_[v - points_]));
+      result_.vertices.push_back(cutVertexOn(mesh_, current_, positions_[v - points_]));
       if (made.isCrossing)
       {
         made.crossing.vertex = made.number;
@@ -445,25 +411,6 @@ private:
       }
     }
     return made.number;
-  }
-
-  CutVertex cutVertex(const Vec3& position) const
-  {
-    CutVertex vertex;
-    vertex.point = position;
-    vertex.triangle = current_;
-    const Triangle& c = mesh_.triangles[current_];
-    const Vec3 a = mesh_.points[c[1]] - mesh_.points[c[0]];
-    const Vec3 b = mesh_.points[c[2]] - mesh_.points[c[0]];
-    const Vec3 p = position - mesh_.points[c[0]];
-    const Vec3 normal = a.cross(b);
-    const double squared = normal.squaredNorm();
-    if (squared > 0.0)
-    {
-      vertex.u = std::clamp(p.cross(b).dot(normal) / squared, 0.0, 1.0);
-      vertex.v = std::clamp(a.cross(p).dot(normal) / squared, 0.0, 1.0 - vertex.u);
-    }
-    return vertex;
   }
 
   const TriangleMesh& mesh_;
@@ -490,6 +437,25 @@ private:
 };
 
 } // namespace
+
+CutVertex cutVertexOn(const TriangleMesh& mesh, std::int32_t triangle, const Vec3& point)
+{
+  CutVertex vertex;
+  vertex.point = point;
+  vertex.triangle = triangle;
+  const Triangle& c = mesh.triangles[triangle];
+  const Vec3 a = mesh.points[c[1]] - mesh.points[c[0]];
+  const Vec3 b = mesh.points[c[2]] - mesh.points[c[0]];
+  const Vec3 p = point - mesh.points[c[0]];
+  const Vec3 normal = a.cross(b);
+  const double squared = normal.squaredNorm();
+  if (squared > 0.0)
+  {
+    vertex.u = std::clamp(p.cross(b).dot(normal) / squared, 0.0, 1.0);
+    vertex.v = std::clamp(a.cross(p).dot(normal) / squared, 0.0, 1.0 - vertex.u);
+  }
+  return vertex;
+}
 
 CutMesh cutMesh(const TriangleMesh& mesh, const std::vector<std::int32_t>& candidates,
   const CellSet& cells, const CellGrid& grid, const Progress& progress)

@@ -38,6 +38,9 @@ struct CutVertex
   double v = 0.0;
 };
 
+/// \param point on a triangle of the mesh.
+CutVertex cutVertexOn(const TriangleMesh& mesh, std::int32_t triangle, const Vec3& point);
+
 /// What of a mesh lies outside of a set of lattice cells, and the line along which it was cut.
 struct CutMesh
 {
@@ -45,6 +48,8 @@ struct CutMesh
   std::vector<std::int32_t> cutTriangles; ///< of these, those that are cut
   std::vector<Triangle> pieces;           ///< the outer parts of triangles that are cut
   std::vector<std::int32_t> pieceOf;      ///< per piece: the triangle it is a part of
+  /// Per piece: false where it goes beyond that triangle, in its plane. Empty: all true.
+  std::vector<bool> isPart;
   /// Vertex k of pieces, segments and crossings is point k of the mesh, or, from the number of
   /// points on, a cut vertex.
   std::vector<CutVertex> vertices;
@@ -58,8 +63,7 @@ struct CutMesh
 /// then y, then z, by comparing coordinates alone: a point in a plane counts as above it. So
 /// triangles at an edge, and pieces at a cut, agree on every vertex, and the result is a consistent
 /// complex for every input, whatever rounding does; the pieces outside are then put together again
-/// and triangulated anew. In triangles much larger than a cell they get vertices in their midst
-/// (RefinePolygon.h). Vertices of neighbouring triangles never differ: no T-junctions.
+/// and triangulated anew. Vertices of neighbouring triangles never differ: no T-junctions.
 ///
 /// \param candidates triangles, rising: all that may touch the cells (TriangleBlocks::near()).
 /// \pre cells is sorted and without diagonal contacts (CellSet::fillDiagonals()); mesh has indices

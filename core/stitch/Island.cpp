@@ -5,6 +5,7 @@
 #include "core/polygonize/MemoryBudget.h"
 #include "core/polygonize/SharpCreases.h"
 #include "core/stitch/CheckPatch.h"
+#include "core/stitch/GradeCut.h"
 #include "core/stitch/KeptMesh.h"
 #include "core/stitch/Patch.h"
 #include "core/stitch/PatchShape.h"
@@ -266,7 +267,7 @@ private:
   void addPieces(std::size_t p)
   {
     const CutMesh& cut = cut_.cuts[p];
-    std::int32_t last = -1;
+    island_.cutTriangles += cut.cutTriangles.size();
     for (std::size_t k = 0; k < cut.pieces.size(); ++k)
     {
       Triangle c = cut.pieces[k];
@@ -276,9 +277,8 @@ private:
         v = beyond < 0 ? this->rimNumber(p, v) : firstCut_[p] + beyond;
       }
       const std::int32_t t = cut.pieceOf[k];
-      this->addTriangle(c, this->leafOf(p, t), this->sourceOf(p, t));
-      island_.cutTriangles += t != last ? 1 : 0;
-      last = t;
+      const bool isPart = cut.isPart.empty() || cut.isPart[k];
+      this->addTriangle(c, this->leafOf(p, t), isPart ? this->sourceOf(p, t) : -1);
     }
   }
 
@@ -447,8 +447,9 @@ IslandCut cutIsland(const std::vector<KeptPart>& parts, const CellSet& cells, co
   for (std::size_t p = 0; p < parts.size(); ++p)
   {
     const TriangleMesh& mesh = *parts[p].mesh;
-    const TriangleBlocks& blocks = KeptMesh::of(parts[p].mesh)->blocks();
-    result.cuts.push_back(cutMesh(mesh, blocks.near(boxes), cells, grid, progress));
+    const std::shared_ptr<const KeptMesh> known = KeptMesh::of(parts[p].mesh);
+    result.cuts.push_back(cutMesh(mesh, known->blocks().near(boxes), cells, grid, progress));
+    gradeCut(mesh, *known, grid.cellSize, result.cuts.back());
     std::vector<std::int32_t> corners;
     for (const std::int32_t t : result.cuts.back().cutTriangles)
     {

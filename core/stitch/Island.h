@@ -30,8 +30,8 @@ struct PartPoint
 struct IslandCut
 {
   std::vector<CutMesh> cuts; ///< per part
-  /// The corners of all triangles that are cut, rising. Islands that have one in common have to be
-  /// made as one.
+  /// The corners of all triangles that are cut or made anew with those, rising. Islands that have
+  /// one in common have to be made as one.
   std::vector<PartPoint> rim;
 };
 

@@ -124,16 +124,11 @@ public:
     {
       works_.push_back(this->prepare(std::move(island)));
     }
-    this->forEachWork(
-      [this](Work& work)
-      {
-        work.island = store().find(work.key);
-        if (!work.island)
-        {
-          work.cut = cutIsland(work.parts, work.cells, options_.grid, progress_);
-        }
-      });
-    this->uniteTouching();
+    this->forEachWork([this](Work& work) { work.island = store().find(work.key); });
+    do
+    {
+      this->forEachWork([this](Work& work) { this->cut(work); });
+    } while (this->uniteTouching()); // those of united islands may reach farther
     remembered_ = made_ ? remembered_
                         : static_cast<std::size_t>(std::count_if(works_.begin(), works_.end(),
                             [](const Work& work) { return work.island != nullptr; }));
@@ -204,8 +199,8 @@ private:
     return work;
   }
 
-  /// Islands that cut triangles at a common point become one.
-  void uniteTouching()
+  /// Islands that cut triangles at a common point become one. \return whether there are such.
+  bool uniteTouching()
   {
     std::map<PartPoint, std::size_t> first;
     DisjointSets sets(works_.size());
@@ -222,7 +217,7 @@ private:
     }
     if (!any)
     {
-      return;
+      return false;
     }
     std::vector<Work> united;
     std::vector<CellSet> cells(works_.size());
@@ -246,6 +241,15 @@ private:
       united.back().island = store().find(united.back().key);
     }
     works_ = std::move(united);
+    return true;
+  }
+
+  void cut(Work& work) const
+  {
+    if (!work.island && !work.cut)
+    {
+      work.cut = cutIsland(work.parts, work.cells, options_.grid, progress_);
+    }
   }
 
   void finish(Work& work) const
@@ -253,10 +257,6 @@ private:
     if (work.island)
     {
       return;
-    }
-    if (!work.cut)
-    {
-      work.cut = cutIsland(work.parts, work.cells, options_.grid, progress_);
     }
     auto island = std::make_shared<const Island>(makeIsland(
       field_, work.near, work.parts, std::move(*work.cut), work.cells, options_, progress_));

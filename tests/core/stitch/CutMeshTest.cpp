@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/stitch/CutMesh.h"
-#include "core/stitch/TriangleBlocks.h"
-
-#include "tests/support/Random.h"
+#include "tests/core/stitch/CutCases.h"
 #include "tests/support/TestMeshes.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <map>
 #include <set>
 
 namespace hybridtree::test
@@ -16,74 +13,12 @@ namespace hybridtree::test
 namespace
 {
 
-CellSet randomCells(Random& random, int reach, double share)
-{
-  CellSet cells;
-  for (int z = -reach; z < reach; ++z)
-  {
-    for (int y = -reach; y < reach; ++y)
-    {
-      for (int x = -reach; x < reach; ++x)
-      {
-        if (random.chance(share))
-        {
-          cells.insert({ x, y, z });
-        }
-      }
-    }
-  }
-  cells.fillDiagonals();
-  return cells;
-}
-
-CutMesh cutAll(const TriangleMesh& mesh, const CellSet& cells, const CellGrid& grid)
-{
-  return cutMesh(mesh, TriangleBlocks(mesh).near(cells.boxes(grid, 1e-6)), cells, grid);
-}
-
-std::vector<std::int32_t> keptTriangles(const TriangleMesh& mesh, const CutMesh& cut)
-{
-  std::vector<std::int32_t> kept;
-  for (std::int32_t t = 0; t < static_cast<std::int32_t>(mesh.triangles.size()); ++t)
-  {
-    if (!std::binary_search(cut.gone.begin(), cut.gone.end(), t))
-    {
-      kept.push_back(t);
-    }
-  }
-  return kept;
-}
-
-Vec3 pointOf(const TriangleMesh& mesh, const CutMesh& cut, std::int32_t v)
-{
-  const auto points = static_cast<std::int32_t>(mesh.points.size());
-  return v < points ? mesh.points[v] : cut.vertices[v - points].point;
-}
-
 /// Sum over triangles of p x area vector: as a volume, by which two surfaces can be told apart.
 Vec3 areaVector(const Vec3& a, const Vec3& b, const Vec3& c)
 {
   return 0.5 * (b - a).cross(c - a);
 }
 
-struct CutCase
-{
-  const char* name;
-  TriangleMesh mesh;
-  double cellSize;
-};
-
-std::vector<CutCase> cutCases()
-{
-  return { { "coarse sphere", icosphere(0.9, 1), 0.11 }, { "fine sphere", icosphere(0.9, 4), 0.3 },
-    { "torus", torus(0.6, 0.25, 40, 20), 0.13 },
-    // All of its faces in planes of the lattice, and corners on lattice points.
-    { "box on the lattice", box(Vec3(-0.5, -0.5, -0.5), Vec3(0.5, 0.5, 0.5)), 0.125 },
-    { "box", box(Vec3(-0.51, -0.62, -0.43), Vec3(0.57, 0.51, 0.7)), 0.125 } };
-}
-
-// Every side of the pieces has its opposite among the pieces and the kept triangles, or runs
-// against a segment of the border; and those close to loops.
 TEST(CutMesh, LeavesNoCrackAndNoTJunction)
 {
   Random random(1);
@@ -93,40 +28,7 @@ TEST(CutMesh, LeavesNoCrackAndNoTJunction)
     {
       const CellSet cells = randomCells(random, 9, share);
       const CutMesh cut = cutAll(example.mesh, cells, CellGrid::ofLevel(example.cellSize, 2));
-      std::map<std::pair<std::int32_t, std::int32_t>, int> sides;
-      const auto add = [&](const Triangle& c)
-      {
-        for (int k = 0; k < 3; ++k)
-        {
-          ++sides[{ c[k], c[(k + 1) % 3] }];
-        }
-      };
-      for (const std::int32_t t : keptTriangles(example.mesh, cut))
-      {
-        add(example.mesh.triangles[t]);
-      }
-      for (const Triangle& piece : cut.pieces)
-      {
-        add(piece);
-      }
-      std::map<std::int32_t, int> ends;
-      for (const BorderSegment& segment : cut.segments)
-      {
-        EXPECT_TRUE(cells.contains(segment.cell));
-        ++sides[{ segment.from, segment.to }];
-        ++ends[segment.from];
-        --ends[segment.to];
-      }
-      for (const auto& [side, count] : sides)
-      {
-        ASSERT_EQ(count, 1) << example.name << " " << share;
-        const auto opposite = sides.find({ side.second, side.first });
-        ASSERT_NE(opposite, sides.end()) << example.name << " " << share;
-      }
-      for (const auto& [vertex, sum] : ends)
-      {
-        ASSERT_EQ(sum, 0) << example.name << " vertex " << vertex;
-      }
+      expectNoCrack(example.mesh, cut, cells, example.name);
     }
   }
 }
