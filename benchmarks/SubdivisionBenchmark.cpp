@@ -9,6 +9,7 @@
 #include "core/base/Parallel.h"
 #include "core/nodes/LatticeMesh.h"
 #include "core/nodes/SkeletonElementFields.h"
+#include "core/nodes/SkeletonLocalField.h"
 #include "core/nodes/SubdivisionSkeleton.h"
 #include "core/subdivision/SkeletonMesh.h"
 #include "tests/support/SkeletonShapes.h"
@@ -59,9 +60,12 @@ public:
     {
       return latticeMesh(*node, kCell, Progress::none()).triangles.size();
     }
-    const double reach = options_.blending.kind == BlendingKind::All ? 2.0 : 6.0;
-    const SkeletonElementFields elements(leaf, SkeletonElementFields::Sums::Own);
-    const SkeletonField field{ leaf.coarse(), leaf.refined(), kLevel, leaf, reach, 0, &elements };
+    const SkeletonElementFields elements(leaf,
+      make == Make::Joined ? SkeletonElementFields::Sums::Largest
+                           : SkeletonElementFields::Sums::Own);
+    const SkeletonLocalField local(leaf);
+    const SkeletonField field{ leaf.coarse(), leaf.refined(), kLevel, leaf, &elements,
+      options_.blending.kind == BlendingKind::All, &local };
     if (make == Make::Joined)
     {
       SkeletonMeshOptions options;

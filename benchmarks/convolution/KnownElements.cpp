@@ -39,8 +39,7 @@ public:
       elements.emplace(leaf, SkeletonElementFields::Sums::Own);
     }
     return pieceMeshes(
-      { leaf.coarse(), leaf.refined(), level_, leaf, 2.0, 0, byElements ? &*elements : nullptr },
-      {});
+      { leaf.coarse(), leaf.refined(), level_, leaf, byElements ? &*elements : nullptr }, {});
   }
 
   /// Seconds a query at all vertices of the meshes of [SUB]'s blending, by elements: all,

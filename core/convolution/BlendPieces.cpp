@@ -279,11 +279,10 @@ std::vector<std::vector<GroupDistance>> farthestPlaces(const BlendPieces& pieces
     [&](const BlendPieces::Place& place, const Box3& reach)
     {
       tree.visit(reach,
-        [&](std::uint32_t at)
+        [&](std::uint32_t other)
         {
-          const std::uint32_t other = tree.order()[at];
           const auto group = static_cast<std::int32_t>(other);
-          if (group != place.group && reach.intersects(reaches[other]))
+          if (group != place.group)
           {
             lists[static_cast<std::size_t>(place.group)].push_back(
               { group, place.from(group, farthest) });

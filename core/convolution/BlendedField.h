@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "core/base/Contents.h"
 #include "core/convolution/BlendGroups.h"
 #include "core/convolution/BlendSelection.h"
 #include "core/convolution/GroupedElements.h"
@@ -58,6 +59,10 @@ public:
 
   /// Bounds of the field in a box. \pre the selection is that of the box or of a larger one.
   Interval range(const BlendSelection& selection, const Box3& box) const;
+
+  /// Adds all that the field in some boxes depends on, besides the elements that reach them. \pre
+  /// BlendingKind::All, or the compact kernel and Neighbours.
+  void describeBlending(const std::vector<Box3>& boxes, Contents& contents) const;
 
 private:
   template <typename Body>

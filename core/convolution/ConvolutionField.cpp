@@ -24,16 +24,37 @@ ElementTree treeOf(const std::vector<Element>& elements, double fadingDistance)
   return ElementTree(boxes);
 }
 
+/// Puts elements in the order in which they were given: sums do not change, not even by rounding,
+/// with what lies elsewhere in the tree.
 template <class Element>
-std::vector<Element> inOrder(const std::vector<Element>& elements, const ElementTree& tree)
+void putInOrder(const std::vector<Element>& all, std::vector<const Element*>& selected)
 {
-  std::vector<Element> ordered;
-  ordered.reserve(elements.size());
-  for (const std::uint32_t index : tree.order())
+  constexpr std::size_t kBits = 64;
+  const std::size_t words = all.size() / kBits + 1;
+  if (words > 4 * selected.size())
   {
-    ordered.push_back(elements[index]);
+    std::sort(selected.begin(), selected.end());
+    return;
   }
-  return ordered;
+  static thread_local std::vector<std::uint64_t> isSelected; // no allocation once warm
+  isSelected.assign(words, 0);
+  for (const Element* element : selected)
+  {
+    const auto index = static_cast<std::size_t>(element - all.data());
+    isSelected[index / kBits] |= std::uint64_t(1) << index % kBits;
+  }
+  std::size_t count = 0;
+  for (std::size_t w = 0; w < words; ++w)
+  {
+    std::uint64_t word = isSelected[w];
+    for (std::size_t k = kBits * w; word != 0; ++k, word >>= 1)
+    {
+      if (word & 1)
+      {
+        selected[count++] = &all[k];
+      }
+    }
+  }
 }
 
 template <class Element>
@@ -67,11 +88,11 @@ ConvolutionField::ConvolutionField(const ConvolutionKernel& kernel,
   : kernel_(kernel)
   , fadingDistance_(
       kernel.kind == KernelKind::Cauchy ? this->fadingDistance(segments, triangles) : 0.0)
+  , segments_(segments)
+  , triangles_(triangles)
   , segmentTree_(treeOf(segments, fadingDistance_))
   , triangleTree_(treeOf(triangles, fadingDistance_))
 {
-  segments_ = inOrder(segments, segmentTree_);
-  triangles_ = inOrder(triangles, triangleTree_);
 }
 
 double ConvolutionField::fadingDistance(
@@ -130,31 +151,33 @@ void ConvolutionField::select(const Box3& box, ElementSelection& selection) cons
   }
   const Ball ball(box);
   segmentTree_.visit(box,
-    [&](std::uint32_t place)
+    [&](std::uint32_t index)
     {
-      if (ball.isReachedBy(segments_[place]))
+      if (ball.isReachedBy(segments_[index]))
       {
-        selection.segments.push_back(&segments_[place]);
+        selection.segments.push_back(&segments_[index]);
       }
     });
   triangleTree_.visit(box,
-    [&](std::uint32_t place)
+    [&](std::uint32_t index)
     {
-      if (ball.isReachedBy(triangles_[place]))
+      if (ball.isReachedBy(triangles_[index]))
       {
-        selection.triangles.push_back(&triangles_[place]);
+        selection.triangles.push_back(&triangles_[index]);
       }
     });
+  putInOrder(segments_, selection.segments);
+  putInOrder(triangles_, selection.triangles);
 }
 
 std::size_t ConvolutionField::index(const SegmentElement* segment) const
 {
-  return segmentTree_.order()[static_cast<std::size_t>(segment - segments_.data())];
+  return static_cast<std::size_t>(segment - segments_.data());
 }
 
 std::size_t ConvolutionField::index(const TriangleElement* triangle) const
 {
-  return triangleTree_.order()[static_cast<std::size_t>(triangle - triangles_.data())];
+  return static_cast<std::size_t>(triangle - triangles_.data());
 }
 
 void ConvolutionField::addField(const ElementSpans& elements, PointBatch points, double* sum) const

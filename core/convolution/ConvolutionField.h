@@ -45,8 +45,8 @@ public:
   /// Closure of where the field is not 0; for the Cauchy kernel, where it is not faded to 0.
   Box3 influenceBounds() const;
 
-  /// The elements that reach the box: all of them, and few others. Of the Cauchy kernel all or,
-  /// where the sum is faded out, none. Overwrites `selection`.
+  /// The elements that reach the box, in the order given: all of them, and few others. Of the
+  /// Cauchy kernel all or, where the sum is faded out, none. Overwrites `selection`.
   void select(const Box3& box, ElementSelection& selection) const;
 
   ///@{
@@ -71,8 +71,8 @@ private:
     const std::vector<TriangleElement>& triangles) const;
 
   ConvolutionKernel kernel_;
-  double fadingDistance_;                ///< 0 for a compact kernel
-  std::vector<SegmentElement> segments_; ///< in the order of their tree
+  double fadingDistance_; ///< 0 for a compact kernel
+  std::vector<SegmentElement> segments_;
   std::vector<TriangleElement> triangles_;
   ElementTree segmentTree_;
   ElementTree triangleTree_;

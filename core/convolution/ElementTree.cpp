@@ -13,6 +13,11 @@ ElementTree::ElementTree(const std::vector<Box3>& boxes) : order_(boxes.size())
   if (!boxes.empty())
   {
     this->build(boxes, 0, static_cast<std::uint32_t>(boxes.size()));
+    boxes_.reserve(boxes.size());
+    for (const std::uint32_t index : order_)
+    {
+      boxes_.push_back(boxes[index]);
+    }
   }
 }
 

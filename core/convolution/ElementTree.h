@@ -19,12 +19,7 @@ public:
   /// Of all boxes; empty for none.
   Box3 bounds() const { return nodes_.empty() ? Box3() : nodes_.front().box; }
 
-  /// Indices of the boxes in the order in which visit() gives them: who stores things in that order
-  /// reads memory in a line.
-  const std::vector<std::uint32_t>& order() const { return order_; }
-
-  /// Calls visit(place) for the place in order() of every box that shares a leaf with one that
-  /// touches `box`, ascending.
+  /// Calls visit(index) for every box that touches `box`, in the order of the tree.
   template <typename Visit>
   void visit(const Box3& box, Visit&& visit) const
   {
@@ -39,7 +34,10 @@ public:
       }
       for (std::uint32_t k = 0; k < node.count; ++k)
       {
-        visit(node.first + k);
+        if (boxes_[node.first + k].intersects(box))
+        {
+          visit(order_[node.first + k]);
+        }
       }
       ++index;
     }
@@ -58,7 +56,8 @@ private:
 
   void build(const std::vector<Box3>& boxes, std::uint32_t begin, std::uint32_t end);
 
-  std::vector<std::uint32_t> order_;
+  std::vector<std::uint32_t> order_; ///< indices of boxes as leaves have them
+  std::vector<Box3> boxes_;          ///< in that order
   std::vector<TreeNode> nodes_;
 };
 

@@ -25,6 +25,7 @@ public:
   SkeletonElementFields(const SubdivisionSkeleton& leaf, Sums sums);
   ~SkeletonElementFields() override;
 
+  int kind() const override { return haveOwnSums_ ? 1 : 0; }
   void evaluate(std::int32_t element, PointBatch points, double* value,
     const VectorBatch* gradient) const override;
 

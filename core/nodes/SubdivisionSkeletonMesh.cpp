@@ -7,11 +7,11 @@
 #include "core/nodes/LatticeMesh.h"
 #include "core/nodes/MappedMesh.h"
 #include "core/nodes/SkeletonElementFields.h"
+#include "core/nodes/SkeletonLocalField.h"
 #include "core/nodes/SurfaceProjection.h"
 #include "core/subdivision/SkeletonMesh.h"
 
 #include <algorithm>
-#include <functional>
 #include <limits>
 
 namespace hybridtree
@@ -25,62 +25,11 @@ PieceMeshCache& sharedCache()
   return cache;
 }
 
-void mix(std::uint64_t& key, std::uint64_t word)
+SkeletonField fieldOf(const SubdivisionSkeleton& leaf, const SkeletonElementFields& elements,
+  const SkeletonLocalField& local)
 {
-  key = (key ^ word) * 0x9e3779b97f4a7c15ull;
-  key ^= key >> 31;
-}
-
-/// All that is told of the leaf but its elements.
-std::uint64_t optionsKey(const Parameters& parameters)
-{
-  std::uint64_t key = 0;
-  for (const auto& [name, value] : parameters.entries())
-  {
-    mix(key, std::hash<std::string>()(name));
-    if (const auto* text = std::get_if<std::string>(&value))
-    {
-      mix(key, std::hash<std::string>()(*text));
-    }
-    else if (const auto* real = std::get_if<double>(&value))
-    {
-      mix(key, std::hash<double>()(*real));
-    }
-    else if (const auto* integer = std::get_if<std::int64_t>(&value))
-    {
-      mix(key, std::uint64_t(*integer));
-    }
-    else if (const auto* flag = std::get_if<bool>(&value))
-    {
-      mix(key, *flag ? 1 : 2);
-    }
-  }
-  return key;
-}
-
-/// How far from an element, in radii, a change of it may be felt.
-double reachOf(const SubdivisionSkeletonOptions& options, const Parameters& parameters)
-{
-  // Where not everything blends, what does is told by ways along the graph, up to twice the reach.
-  const bool controlled = parameters.has("blending") && parameters.getString("blending") != "all";
-  // The other kernel goes on until it is next to nothing.
-  const double support = options.kernel.kind == KernelKind::Compact ? 1.0 : 8.0;
-  return options.kernel.influenceRatio * (controlled ? 3.0 : 1.0) * support;
-}
-
-/// \param elements the field near single elements, by these sums.
-SkeletonField fieldOf(
-  const SubdivisionSkeleton& leaf, const ElementFields* elements, SkeletonElementFields::Sums sums)
-{
-  const SubdivisionSkeletonOptions& options = leaf.options();
-  const Parameters parameters = leaf.parameters();
-  std::uint64_t key = optionsKey(parameters);
-  if (options.blending.kind != BlendingKind::All)
-  {
-    mix(key, std::uint64_t(sums)); // a preview's pieces are not those of a closed mesh
-  }
-  return { leaf.coarse(), leaf.refined(), options.level, leaf, reachOf(options, parameters), key,
-    elements, options.blending.kind == BlendingKind::All };
+  return { leaf.coarse(), leaf.refined(), leaf.options().level, leaf, &elements,
+    leaf.options().blending.kind == BlendingKind::All, &local };
 }
 
 constexpr std::size_t kTogether = 32; // points whose elements are looked for at once
@@ -243,9 +192,9 @@ TriangleMesh subdivisionSkeletonMesh(const SubdivisionSkeleton& leaf, double edg
   options.edgeLength = edgeLength;
   options.refinement = leaf.options().refinement;
   const SkeletonElementFields elements(leaf, SkeletonElementFields::Sums::Largest);
-  std::optional<StitchedMesh> made =
-    skeletonMesh(fieldOf(leaf, &elements, SkeletonElementFields::Sums::Largest), options,
-      &sharedCache(), ProgressPart(progress, 0.0, 0.8));
+  const SkeletonLocalField local(leaf);
+  std::optional<StitchedMesh> made = skeletonMesh(
+    fieldOf(leaf, elements, local), options, &sharedCache(), ProgressPart(progress, 0.0, 0.8));
   if (made && made->mesh.triangles.empty())
   {
     warning = "The skeleton has no surface: it is too short beside its radius, or too thin for the "
@@ -257,7 +206,6 @@ TriangleMesh subdivisionSkeletonMesh(const SubdivisionSkeleton& leaf, double edg
               "A shorter edge length may help.";
     return latticeMesh(leaf, edgeLength, ProgressPart(progress, 0.8, 1.0));
   }
-  made->mesh.sourceLeaf = skeletonPieceNumbers(leaf, made->mesh);
   return std::move(made->mesh);
 }
 
@@ -278,8 +226,8 @@ TriangleMesh subdivisionSkeletonPreview(const SubdivisionSkeleton& leaf, const P
   PieceMeshOptions options;
   options.refinement = leaf.options().refinement;
   const SkeletonElementFields elements(leaf, SkeletonElementFields::Sums::Own);
-  return joinPieces(pieceMeshes(
-    fieldOf(leaf, &elements, SkeletonElementFields::Sums::Own), options, &sharedCache(), progress));
+  const SkeletonLocalField local(leaf);
+  return joinPieces(pieceMeshes(fieldOf(leaf, elements, local), options, &sharedCache(), progress));
 }
 
 void nearestPieces(const SubdivisionSkeleton& leaf, PointBatch points, std::int32_t* pieces)

@@ -17,7 +17,6 @@ constexpr int kMaxRounds = 30;
 constexpr double kShortest = 0.1;    // edge that may be split, in radii
 constexpr double kReach = 0.4;       // of the middle of an edge to the surface, in edge lengths
 constexpr double kOpposite = -0.2;   // cosine between the normals at both ends of an edge that cuts
-constexpr double kNearby = 0.25;     // an axis that is still where it was, in radii
 constexpr double kClearly = 1.00001; // so that rounding does not choose between equal edges
 
 using Edge = EdgeMesh::Edge;
@@ -30,10 +29,9 @@ public:
   {
   }
 
-  PieceMesh run(
-    const PieceCage& cage, const std::vector<SkeletonAxis>& before, const Progress& progress)
+  PieceMesh run(const PieceCage& cage, const Progress& progress)
   {
-    placeCage(cage, before);
+    placeCage(cage);
     for (int round = 0; round < kMaxRounds && splitEdges(); ++round)
     {
       progress.check();
@@ -50,7 +48,7 @@ private:
   {
     return mesh_.onSurface[edge.a] != 0 && mesh_.onSurface[edge.b] != 0;
   }
-  void placeCage(const PieceCage& cage, const std::vector<SkeletonAxis>& before);
+  void placeCage(const PieceCage& cage);
   bool splitEdges();
   std::vector<std::int32_t> newEdges();
   bool isOff(const Edge& edge, double value, double length) const;
@@ -74,15 +72,9 @@ void Refiner::addPoint(const Vec3& point, const Vec3& normal, bool onSurface)
   mesh_.onSurface.push_back(onSurface ? 1 : 0);
 }
 
-void Refiner::placeCage(const PieceCage& cage, const std::vector<SkeletonAxis>& before)
+void Refiner::placeCage(const PieceCage& cage)
 {
-  std::vector<SkeletonAxis> axes = cage.axes;
-  for (std::size_t k = 0; k < axes.size() && before.size() == axes.size(); ++k)
-  {
-    const bool isNear = (axes[k].base - before[k].base).norm() < kNearby * cage.radii[k] &&
-      axes[k].direction.dot(before[k].direction) > 1.0 - kNearby;
-    axes[k].start = isNear ? before[k].start : axes[k].start;
-  }
+  const std::vector<SkeletonAxis>& axes = cage.axes;
   std::vector<Vec3> gradient;
   const std::vector<double> found = slideAxes(field_, axes, &gradient);
   for (std::size_t k = 0; k < axes.size(); ++k)
@@ -95,9 +87,7 @@ void Refiner::placeCage(const PieceCage& cage, const std::vector<SkeletonAxis>& 
       steep ? Vec3(-gradient[k].normalized()) : axes[k].direction, isFound);
     mesh_.bases.push_back(axes[k].base);
     mesh_.elements.push_back(axes[k].element);
-    axes[k].start = t;
   }
-  mesh_.axes = std::move(axes);
 }
 
 /// Those that were not there before.
@@ -236,10 +226,9 @@ void requirePieceSize(double vertices)
 }
 
 PieceMesh refineCage(const PieceCage& cage, const PlacedField& field,
-  const PieceMeshOptions& options, const std::vector<SkeletonAxis>& before,
-  const Progress& progress)
+  const PieceMeshOptions& options, const Progress& progress)
 {
-  return Refiner(cage, field, options).run(cage, before, progress);
+  return Refiner(cage, field, options).run(cage, progress);
 }
 
 } // namespace hybridtree

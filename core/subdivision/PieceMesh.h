@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/base/Progress.h"
+#include "core/mesh/TriangleMesh.h"
 #include "core/subdivision/PieceCage.h"
 
 #include <cstdint>
@@ -17,18 +18,17 @@ struct PieceMeshOptions
   double refinement = 0.1;
   /// Edges are split until they are no longer than this, world units; 0: by eta alone.
   double longestEdge = 0.0;
+  /// Fill sourceLeaf, by the skeleton's local field.
+  bool findSources = false;
 };
 
-/// The surface around one piece. Closed, oriented outward, a 2-manifold.
-struct PieceMesh
+/// The surface around one piece. Closed, oriented outward, a 2-manifold; with normals, which are
+/// -grad f / |grad f|, or along the axis where not settled.
+struct PieceMesh : TriangleMesh
 {
-  std::vector<Vec3> points;
-  std::vector<Vec3> normals;           ///< -grad f / |grad f|; along the axis where not settled
   std::vector<std::uint8_t> onSurface; ///< per point: 0 inside of other pieces, where no surface is
   std::vector<Vec3> bases;             ///< per point: the place of the skeleton it belongs to
   std::vector<std::int32_t> elements;  ///< per point: the coarse element, as SkeletonAxis::element
-  std::vector<Triangle> triangles;
-  std::vector<SkeletonAxis> axes; ///< of the cage; start is where the vertex was found
 };
 
 /// Lets the vertices of a cage slide to the surface, then splits edges until they follow it.
@@ -39,11 +39,8 @@ struct PieceMesh
 /// surrounds. Edges shorter than a tenth of the radius are not split, so that
 /// creases, where parts are united and not blended, end the splitting.
 ///
-/// \param before axes of an earlier mesh of this piece, for a quick start. Those that are elsewhere
-/// now, by more than a quarter of the radius, start anew; so do all when their number differs.
 /// \throws TooLarge where the radius is tiny beside the piece; Cancelled.
 PieceMesh refineCage(const PieceCage& cage, const PlacedField& field,
-  const PieceMeshOptions& options, const std::vector<SkeletonAxis>& before = {},
-  const Progress& progress = Progress::none());
+  const PieceMeshOptions& options, const Progress& progress = Progress::none());
 
 } // namespace hybridtree

@@ -4,7 +4,6 @@
 #include "core/base/Parallel.h"
 
 #include <algorithm>
-#include <cstring>
 #include <utility>
 
 namespace hybridtree
@@ -14,189 +13,91 @@ namespace
 
 constexpr double kAxisReach = 2.7; // of a piece's mesh from its skeleton, in radii
 
-class Hash
+/// Around the children of a coarse element: all that its part of a mesh may ask of the field.
+template <std::size_t N>
+Box3 surroundings(const RefinedSkeleton& refined,
+  const std::vector<std::array<std::int32_t, N>>& elements, std::int32_t coarse, int parts)
 {
-public:
-  void add(std::uint64_t word)
+  Box3 box;
+  double radius = 0.0;
+  for (std::int32_t n = coarse * parts; n < (coarse + 1) * parts; ++n)
   {
-    state_ = (state_ ^ word) * 0x9e3779b97f4a7c15ull;
-    state_ ^= state_ >> 29;
-    state_ *= 0xbf58476d1ce4e5b9ull;
-    state_ ^= state_ >> 32;
+    for (const std::int32_t point : elements[n])
+    {
+      box.extend(refined.points[point]);
+      radius = std::max(radius, refined.radii[point]);
+    }
   }
-  void add(double value)
-  {
-    std::uint64_t word = 0;
-    std::memcpy(&word, &value, sizeof word);
-    add(word);
-  }
-  std::uint64_t result() const { return state_; }
+  box.min().array() -= kAxisReach * radius;
+  box.max().array() += kAxisReach * radius;
+  return box;
+}
 
-private:
-  std::uint64_t state_ = 0x6a09e667f3bcc909ull;
-};
-
-/// Which parts of a skeleton each piece depends on, as a number for each piece.
+/// Keys for the pieces of one skeleton.
 class PieceKeys
 {
 public:
-  PieceKeys(const SkeletonField& skeleton, const PieceMeshOptions& options) : skeleton_(skeleton)
+  PieceKeys(const SkeletonField& skeleton, const PieceMeshOptions& options)
+    : skeleton_(skeleton), options_(options)
   {
-    common_.add(skeleton.key);
-    common_.add(std::uint64_t(skeleton.elements != nullptr));
-    common_.add(std::uint64_t(skeleton.level));
-    common_.add(options.refinement);
-    common_.add(options.longestEdge);
-    common_.add(skeleton.influenceRatio);
-    for (const SkeletonSegment& segment : skeleton.refined.segments)
-    {
-      reach_.push_back(boxOf(segment, skeleton.influenceRatio));
-    }
-    for (const Triangle& triangle : skeleton.refined.triangles)
-    {
-      reach_.push_back(boxOf(triangle, skeleton.influenceRatio));
-    }
   }
 
-  std::uint64_t ofCurve(const CurvePiece& piece) const
+  PieceKey ofCurve(const CurvePiece& piece) const
   {
-    return of(piece.segments, skeleton_.refined.segments, 0, 1 << skeleton_.level);
+    PieceKey key = this->of(piece.segments, skeleton_.refined.segments, 1 << skeleton_.level);
+    key.own.add(std::int32_t(piece.closed));
+    return key;
   }
 
-  std::uint64_t ofSurface(const SurfacePiece& piece) const
+  PieceKey ofSurface(const SurfacePiece& piece) const
   {
-    return of(piece.triangles, skeleton_.refined.triangles, skeleton_.refined.segments.size(),
-      1 << (2 * skeleton_.level));
+    PieceKey key =
+      this->of(piece.triangles, skeleton_.refined.triangles, 1 << (2 * skeleton_.level));
+    key.own.add(std::int32_t(-1));
+    return key;
   }
 
 private:
   template <std::size_t N>
-  Box3 boxOf(const std::array<std::int32_t, N>& corners, double radii) const
+  PieceKey of(const std::vector<std::int32_t>& own,
+    const std::vector<std::array<std::int32_t, N>>& elements, int parts) const
   {
-    Box3 box;
-    double radius = 0.0;
-    for (const std::int32_t point : corners)
-    {
-      box.extend(skeleton_.refined.points[point]);
-      radius = std::max(radius, skeleton_.refined.radii[point]);
-    }
-    box.min().array() -= radii * radius;
-    box.max().array() += radii * radius;
-    return box;
-  }
-
-  template <std::size_t N>
-  void addElement(const std::array<std::int32_t, N>& corners, Hash& hash) const
-  {
-    for (const std::int32_t point : corners)
-    {
-      hash.add(std::uint64_t(point));
-      for (const double coordinate : skeleton_.refined.points[point])
-      {
-        hash.add(coordinate);
-      }
-      hash.add(skeleton_.refined.radii[point]);
-    }
-  }
-
-  template <std::size_t N>
-  std::uint64_t of(const std::vector<std::int32_t>& own,
-    const std::vector<std::array<std::int32_t, N>>& elements, std::size_t kind, int parts) const
-  {
-    Hash hash = common_;
-    hash.add(std::uint64_t(kind != 0));
-    std::vector<Box3> region;
+    PieceKey key;
+    key.own.add(std::int32_t(skeleton_.elements ? skeleton_.elements->kind() : -1));
+    key.own.add(options_.refinement);
+    key.own.add(options_.longestEdge);
+    key.own.add(std::int32_t(options_.findSources));
+    std::vector<Box3> boxes;
     for (const std::int32_t coarse : own)
     {
-      hash.add(std::uint64_t(coarse));
-      Box3 box;
-      for (std::int32_t n = coarse * parts; n < (coarse + 1) * parts; ++n)
-      {
-        box.extend(boxOf(elements[n], kAxisReach));
-      }
-      region.push_back(box);
+      key.own.add(coarse);
+      boxes.push_back(surroundings(skeleton_.refined, elements, coarse, parts));
     }
-    const RefinedSkeleton& all = skeleton_.refined;
-    for (std::size_t k = 0; k < reach_.size(); ++k)
-    {
-      if (std::none_of(
-            region.begin(), region.end(), [&](const Box3& b) { return b.intersects(reach_[k]); }))
-      {
-        continue;
-      }
-      if (k < all.segments.size())
-      {
-        addElement(all.segments[k], hash);
-      }
-      else
-      {
-        addElement(all.triangles[k - all.segments.size()], hash);
-      }
-    }
-    return hash.result();
+    key.field.push_back(skeleton_.local->around(boxes));
+    return key;
   }
 
   const SkeletonField& skeleton_;
-  Hash common_;
-  std::vector<Box3> reach_; // segments, then triangles
+  const PieceMeshOptions& options_;
 };
 
-std::size_t bytesOf(const PieceMesh& mesh)
+std::size_t bytesOf(const PieceMesh& mesh, const PieceKey& key)
 {
   return mesh.points.size() * (3 * sizeof(Vec3) + 5) + mesh.triangles.size() * sizeof(Triangle) +
-    mesh.axes.size() * sizeof(SkeletonAxis) + sizeof(PieceMesh);
+    mesh.sourceLeaf.size() * sizeof(std::int32_t) + sizeof(PieceMesh) + key.own.bytes();
 }
 
 } // namespace
 
-PieceMeshPtr PieceMeshCache::find(std::uint64_t key)
+std::uint64_t PieceKey::hash() const
 {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  const auto found = places_.find(key);
-  if (found == places_.end())
+  HashSum sum;
+  sum.add(own.hash());
+  for (const Dependency& dependency : field)
   {
-    return nullptr;
+    dependency.addTo(sum);
   }
-  ++hits_;
-  entries_.splice(entries_.begin(), entries_, found->second);
-  return found->second->second;
-}
-
-void PieceMeshCache::insert(std::uint64_t key, const PieceMeshPtr& mesh)
-{
-  const std::lock_guard<std::mutex> lock(mutex_);
-  if (places_.count(key) != 0)
-  {
-    return;
-  }
-  entries_.emplace_front(key, mesh);
-  places_[key] = entries_.begin();
-  bytes_ += bytesOf(*mesh);
-  while (bytes_ > maxBytes_ && entries_.size() > 1)
-  {
-    bytes_ -= bytesOf(*entries_.back().second);
-    places_.erase(entries_.back().first);
-    entries_.pop_back();
-  }
-}
-
-PieceMeshPtr PieceMeshCache::last(std::size_t piece) const
-{
-  const std::lock_guard<std::mutex> lock(mutex_);
-  const auto found = last_.find(piece);
-  return found == last_.end() ? nullptr : found->second.lock();
-}
-
-void PieceMeshCache::setLast(std::size_t piece, const PieceMeshPtr& mesh)
-{
-  const std::lock_guard<std::mutex> lock(mutex_);
-  last_[piece] = mesh;
-}
-
-std::size_t PieceMeshCache::hits() const
-{
-  const std::lock_guard<std::mutex> lock(mutex_);
-  return hits_;
+  return sum.value();
 }
 
 std::vector<PieceMeshPtr> pieceMeshes(const SkeletonField& skeleton,
@@ -206,6 +107,7 @@ std::vector<PieceMeshPtr> pieceMeshes(const SkeletonField& skeleton,
   const std::size_t curves = pieces.curves.size();
   const PieceKeys keys(skeleton, options);
   const PlacedField field{ skeleton.field, skeleton.elements };
+  const bool isKept = cache && skeleton.local;
   std::vector<PieceMeshPtr> result(pieces.size());
   parallelFor(pieces.size(), 1,
     [&](std::size_t begin, std::size_t end)
@@ -214,10 +116,13 @@ std::vector<PieceMeshPtr> pieceMeshes(const SkeletonField& skeleton,
       {
         progress.check();
         const bool isCurve = k < curves;
-        const std::uint64_t key = !cache ? 0
-          : isCurve                      ? keys.ofCurve(pieces.curves[k])
-                                         : keys.ofSurface(pieces.surfaces[k - curves]);
-        result[k] = cache ? cache->find(key) : nullptr;
+        PieceKey key;
+        if (isKept)
+        {
+          key =
+            isCurve ? keys.ofCurve(pieces.curves[k]) : keys.ofSurface(pieces.surfaces[k - curves]);
+          result[k] = cache->find(key);
+        }
         if (result[k])
         {
           continue;
@@ -225,13 +130,16 @@ std::vector<PieceMeshPtr> pieceMeshes(const SkeletonField& skeleton,
         const PieceCage cage = isCurve
           ? curveCage(pieces.curves[k], skeleton.refined, skeleton.level, field)
           : surfaceCage(pieces.surfaces[k - curves], skeleton.refined, skeleton.level, field);
-        const PieceMeshPtr before = cache ? cache->last(k) : nullptr;
-        result[k] = std::make_shared<PieceMesh>(refineCage(
-          cage, field, options, before ? before->axes : std::vector<SkeletonAxis>(), progress));
-        if (cache)
+        auto mesh = std::make_shared<PieceMesh>(refineCage(cage, field, options, progress));
+        if (options.findSources)
         {
-          cache->insert(key, result[k]);
-          cache->setLast(k, result[k]);
+          skeleton.local->findSources(*mesh, progress);
+        }
+        result[k] = mesh;
+        if (isKept)
+        {
+          const std::size_t bytes = bytesOf(*mesh, key);
+          cache->keep(std::move(key), mesh, bytes);
         }
       }
     });

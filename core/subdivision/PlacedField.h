@@ -15,6 +15,9 @@ class ElementFields
 public:
   virtual ~ElementFields() = default;
 
+  /// Tells fields from others around the same skeleton.
+  virtual int kind() const = 0;
+
   /// Overwrites `value`, and `gradient` unless null.
   virtual void evaluate(
     std::int32_t element, PointBatch points, double* value, const VectorBatch* gradient) const = 0;

@@ -25,9 +25,10 @@ struct SkeletonMeshOptions
 /// the cells of a lattice are marked, the meshes cut along their border and the surface inside made
 /// by marching cubes (Stitch.h). [SUB] leaves the overlaps.
 ///
-/// \param cache as pieceMeshes().
-/// \return nothing where the parts do not fit together: then the whole has to be polygonized.
-/// \throws TooLarge, Cancelled.
+/// What is there of earlier meshes (pieces, the cells they are in, islands of marked cells) is
+/// taken from them where neither pieces nor field have changed within reach: the result is the
+/// same, bit for bit. \param cache as pieceMeshes(). \return nothing where the parts do not fit
+/// together: then the whole has to be polygonized. \throws TooLarge, Cancelled.
 std::optional<StitchedMesh> skeletonMesh(const SkeletonField& skeleton,
   const SkeletonMeshOptions& options, PieceMeshCache* cache = nullptr,
   const Progress& progress = Progress::none());

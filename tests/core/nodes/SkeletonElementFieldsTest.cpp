@@ -69,8 +69,8 @@ TEST(SkeletonElementFields, PiecesByDistanceFollowTheField)
     const SkeletonElementFields fields(*leaf, SkeletonElementFields::Sums::Own);
     std::size_t found = 0;
     std::size_t equal = 0;
-    for (const PieceMeshPtr& piece : pieceMeshes(
-           { leaf->coarse(), leaf->refined(), leaf->options().level, *leaf, 2.0, 0, &fields }, {}))
+    for (const PieceMeshPtr& piece :
+      pieceMeshes({ leaf->coarse(), leaf->refined(), leaf->options().level, *leaf, &fields }, {}))
     {
       const PointList points(piece->points);
       std::vector<double> value(points.size());
@@ -97,8 +97,8 @@ TEST(SkeletonElementFields, PiecesFollowTheSumsOfTheirElements)
   {
     const auto leaf = leafOf(bretzel(), kernel, BlendingKind::Paper);
     const SkeletonElementFields fields(*leaf, SkeletonElementFields::Sums::Own);
-    const std::vector<PieceMeshPtr> pieces = pieceMeshes(
-      { leaf->coarse(), leaf->refined(), leaf->options().level, *leaf, 2.0, 0, &fields }, {});
+    const std::vector<PieceMeshPtr> pieces =
+      pieceMeshes({ leaf->coarse(), leaf->refined(), leaf->options().level, *leaf, &fields }, {});
     std::size_t found = 0;
     for (const PieceMeshPtr& piece : pieces)
     {

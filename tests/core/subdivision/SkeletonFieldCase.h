@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "core/nodes/SubdivisionSkeleton.h"
+#include "core/nodes/SkeletonLocalField.h"
 #include "core/subdivision/PieceMeshes.h"
+
+#include <memory>
 
 namespace hybridtree::test
 {
@@ -20,14 +22,21 @@ struct SkeletonFieldCase
     options.level = level;
     options.blending.kind = blending;
     node = makeSubdivisionSkeleton(graph, options);
+    local = std::make_unique<SkeletonLocalField>(static_cast<const SubdivisionSkeleton&>(*node));
   }
 
-  SkeletonField field() const { return { graph, refined, level, *node, 2.0, 0 }; }
+  SkeletonField field() const
+  {
+    const auto& leaf = static_cast<const SubdivisionSkeleton&>(*node);
+    const bool isSmooth = leaf.options().blending.kind == BlendingKind::All;
+    return { graph, refined, level, *node, nullptr, isSmooth, local.get() };
+  }
 
   SkeletonGraph graph;
   int level;
   RefinedSkeleton refined;
   NodePtr node;
+  std::unique_ptr<SkeletonLocalField> local;
 };
 
 } // namespace hybridtree::test

@@ -182,6 +182,53 @@ TEST(SkeletonMesh, SmallSheetsAreThereAsSoonAsTheyHaveASurface)
   EXPECT_TRUE(before);
 }
 
+/// A point that is moved, or made thicker.
+void editOne(SkeletonGraph& graph, test::Random& random)
+{
+  const int last = static_cast<int>(graph.points.size()) - 1;
+  const auto point = static_cast<std::size_t>(random.integer(0, last));
+  graph.points[point] += random.uniform(0.0, 0.1) * random.direction();
+  graph.radii[point] *= random.chance(0.2) ? random.uniform(0.9, 1.1) : 1.0;
+}
+
+// What is kept of earlier meshes does not show: after each of many edits the mesh is the one that
+// is made when nothing is remembered.
+TEST(SkeletonMesh, AfterEditsIsTheMeshOfAColdStart)
+{
+  SkeletonMeshOptions options;
+  options.edgeLength = 0.17;
+  for (const BlendingKind blending : { BlendingKind::All, BlendingKind::Neighbours })
+  {
+    test::Random random(11);
+    SkeletonGraph graph = test::alien();
+    std::vector<SkeletonFieldCase> shapes;
+    std::vector<TriangleMesh> cold;
+    for (int edit = 0; edit < 5; ++edit)
+    {
+      shapes.emplace_back(graph, 1, SubdivisionScheme::Approximating, blending);
+      forgetIslands();
+      const std::optional<StitchedMesh> made = skeletonMesh(shapes.back().field(), options);
+      ASSERT_TRUE(made);
+      EXPECT_EQ(made->remembered, 0u);
+      cold.push_back(made->mesh);
+      editOne(graph, random);
+    }
+    forgetIslands();
+    PieceMeshCache cache;
+    for (std::size_t edit = 0; edit < shapes.size(); ++edit)
+    {
+      SCOPED_TRACE("edit " + std::to_string(edit));
+      const std::optional<StitchedMesh> warm = skeletonMesh(shapes[edit].field(), options, &cache);
+      ASSERT_TRUE(warm);
+      EXPECT_TRUE(isClosedManifold(warm->mesh));
+      EXPECT_EQ(warm->mesh.points, cold[edit].points);
+      EXPECT_EQ(warm->mesh.normals, cold[edit].normals);
+      EXPECT_EQ(warm->mesh.triangles, cold[edit].triangles);
+      EXPECT_EQ(warm->mesh.sourceLeaf, cold[edit].sourceLeaf);
+    }
+  }
+}
+
 TEST(SkeletonMesh, CanBeCancelled)
 {
   const SkeletonFieldCase shape(test::figure7());
