@@ -5,6 +5,7 @@
 #include "core/base/Scratch.h"
 #include "core/polygonize/CreasePolygon.h"
 #include "core/polygonize/NearSurface.h"
+#include "core/polygonize/NormalsOnWay.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,11 +23,13 @@ constexpr int kSteps = 5;
 constexpr int kShifting = 2; // the step after which it moves along the crease no more,
 constexpr int kJudging = 3;  // and the one at which it must look like a crease
 
-// Between corners whose normals are no further apart than the first, steps no larger than the
-// second are no crease. Radians.
-constexpr double kRoundAngle = 1.05;
-constexpr double kRoundStep = 0.4;
-constexpr std::size_t kBetween = 3; // places on the way
+// Between two corners, steps of the normal no larger than this are no crease, radians; where they
+// are larger, so often two are made of one.
+constexpr double kRoundStep = 0.3;
+constexpr int kHalvings = 1;
+// Places on the way over where their planes meet: shares of the way from there to one corner,
+// and the other.
+constexpr double kWaysBetween[] = { -0.6, -0.2, 0.2, 0.6 };
 
 constexpr double kLeastShare = 0.5; // of the angle between the corners' normals that is left there
 // What is merely curved: with normals at the corners no further apart than the first; or than the
@@ -48,12 +51,6 @@ constexpr double kMargin = 2.0;      // cells around the polygons in which the f
 constexpr std::size_t kLoopsPerRun = 32;
 constexpr std::int64_t kBricksAlongRun = 4;
 
-/// Of vectors of unit length; not a number where they are none.
-double angleBetween(const Vec3& a, const Vec3& b)
-{
-  return std::acos(std::clamp(a.dot(b), -1.0, 1.0));
-}
-
 /// Search on one polygon.
 struct Search
 {
@@ -64,7 +61,8 @@ struct Search
   Vec3 point = Vec3::Zero();
   TouchingPlanes planes;   ///< one for each corner, from the last step
   PlanePair widest{};      ///< of the corners
-  double mostTurn = 0.0;   ///< on the way between these two, radians
+  double turnInward = 0.0; ///< at most, of their normals from step to step, radians
+  double mostTurn = 0.0;   ///< the same on the whole way between these two
   bool looksSharp = false; ///< from near, too
   bool isJudged = false;
   bool alive = true;
@@ -145,11 +143,11 @@ private:
       {
         const TouchingPlane plane =
           TouchingPlane::of(points.points()[next], values[next], gradients.points()[next]);
-        if (!search.isJudged && !search.planes[k].normal.isZero(0.0) &&
+        if (!search.planes[k].normal.isZero(0.0) &&
           (k == search.widest.first || k == search.widest.second))
         {
-          search.mostTurn =
-            std::max(search.mostTurn, angleBetween(search.planes[k].normal, plane.normal));
+          search.turnInward =
+            std::max(search.turnInward, angleBetween(search.planes[k].normal, plane.normal));
         }
         search.planes[k] = plane;
       }
@@ -157,52 +155,54 @@ private:
   }
 
   /// Drops polygons that are bent as a whole, where the field's normal turns by and by on the way
-  /// between the corners: cheap to see, and smooth surfaces have no others.
+  /// from one corner over the place where the planes meet to another: cheap to see, and smooth
+  /// surfaces have no others.
   void dropRound()
   {
-    std::vector<Search*> bent;
-    std::vector<PlanePair> widest;
-    for (Search& search : searches_)
+    std::vector<NormalsOnWay> ways;
+    std::vector<std::size_t> bent;
+    for (std::size_t k = 0; k < searches_.size(); ++k)
     {
-      const PlanePair pair = widestPair(search.planes);
-      if (pair.angle < kRoundAngle)
+      Search& search = searches_[k];
+      search.widest = widestPair(search.planes);
+      if (search.widest.angle < kMostBend)
       {
-        bent.push_back(&search);
-        widest.push_back(pair);
+        ways.push_back(this->wayBetween(search));
+        bent.push_back(k);
       }
     }
-    ScratchVectors points(kBetween * bent.size()), gradients(kBetween * bent.size());
-    ScratchArray values(kBetween * bent.size());
-    for (std::size_t k = 0; k < points.points().size; ++k)
+    askForNormals(field_, ways);
+    for (int halving = 0; halving < kHalvings; ++halving)
     {
-      const std::size_t n = k / kBetween;
-      const Vec3& from = bent[n]->polygon.corner(widest[n].first);
-      const Vec3& to = bent[n]->polygon.corner(widest[n].second);
-      const double way = static_cast<double>(k % kBetween + 1) / (kBetween + 1);
-      points.batch().set(k, from + way * (to - from));
+      for (NormalsOnWay& way : ways)
+      {
+        way.halveAbove(kRoundStep);
+      }
+      askForNormals(field_, ways);
     }
-    field_.fieldAndGradient(points.points(), values.data(), gradients.batch());
     for (std::size_t n = 0; n < bent.size(); ++n)
     {
-      const TouchingPlanes& planes = bent[n]->planes;
-      bent[n]->alive = !PointFinder::turnsSlowly(planes[widest[n].first].normal,
-        gradients.points().slice(kBetween * n, kBetween), planes[widest[n].second].normal);
+      Search& search = searches_[bent[n]];
+      const double turn = ways[n].mostTurn();
+      search.isJudged = turn < kRoundStep;
+      search.mostTurn = turn;
+      search.alive = !search.isJudged;
     }
   }
 
-  /// From one normal along gradients to another.
-  static bool turnsSlowly(const Vec3& from, PointBatch gradients, const Vec3& to)
+  NormalsOnWay wayBetween(const Search& search) const
   {
-    const double leastCosine = std::cos(kRoundStep);
-    bool slowly = true;
-    Vec3 last = from;
-    for (std::size_t k = 0; k < gradients.size; ++k)
+    const TouchingPlane& from = search.planes[search.widest.first];
+    const TouchingPlane& to = search.planes[search.widest.second];
+    const Meeting meeting = meetingOf(search.planes, search.middle, kFarthest * cell_);
+    const Vec3 top = meeting.found ? meeting.point : Vec3(0.5 * (from.at + to.at));
+    NormalsOnWay way(from.at, from.normal);
+    for (const double share : kWaysBetween)
     {
-      const Vec3 next = gradients[k] / -gradients[k].norm();
-      slowly = slowly && last.dot(next) > leastCosine; // not-a-number is not
-      last = next;
+      way.add(top + std::abs(share) * ((share < 0.0 ? from.at : to.at) - top));
     }
-    return slowly && last.dot(to) > leastCosine;
+    way.add(to.at, to.normal);
+    return way;
   }
 
   /// One step nearer to the crease; false where there is none.
@@ -210,7 +210,6 @@ private:
   {
     if (step == 0)
     {
-      search.widest = widestPair(search.planes);
       this->keepNormals(search);
     }
     for (const TouchingPlane& plane : search.planes)
@@ -220,12 +219,15 @@ private:
         return false;
       }
     }
-    if (step == kJudging)
+    if (step >= kJudging)
     {
       search.isJudged = true;
-      search.mostTurn = std::max(search.mostTurn,
+      search.mostTurn = std::max(search.turnInward,
         angleBetween(
           search.planes[search.widest.first].normal, search.planes[search.widest.second].normal));
+    }
+    if (step == kJudging)
+    {
       search.looksSharp =
         widestAngle(search.planes) >= std::max(leastAngle_, kLeastShare * search.widest.angle);
       if (!search.looksSharp)
@@ -237,6 +239,10 @@ private:
       step < kShifting ? search.polygon.halfWay(search.planes) : std::nullopt;
     search.target = halfWay.value_or(search.target);
     const Meeting meeting = meetingOf(search.planes, search.target, kFarthest * cell_);
+    if (!meeting.found && step > kJudging)
+    {
+      search.looksSharp = widestAngle(search.planes) >= leastAngle_; // or is round, from very near
+    }
     search.point = meeting.point;
     if (meeting.found && !meeting.edge.isZero() && step <= kShifting && !halfWay)
     {
