@@ -11,7 +11,7 @@ namespace hybridtree
 /// of the operands' own meshes is in it.
 enum class BlendMethod
 {
-  Automatic,      ///< primitive-based where that is faster, else global
+  Automatic,      ///< primitive-based where faster, or meshes finer than the lattice take part
   NodeBased,      ///< the children's meshes stand where one child is alone
   PrimitiveBased, ///< through nested blends, those of what is blended: less is made anew
   Global          ///< all from the field, over the lattice

@@ -200,6 +200,28 @@ std::vector<KeptPart> keptMeshes(const std::vector<BlendPart>& parts, std::vecto
   return kept;
 }
 
+/// Whether some mesh that is kept has more triangles than a lattice would make of its surface,
+/// about three for each squared cell: the lattice would lose detail of it, and is no choice for
+/// being cheaper.
+bool isFinerThanLattice(
+  const std::vector<BlendPart>& parts, const std::vector<MarkTerm>& terms, double edgeLength)
+{
+  constexpr double kPerSquare = 3.0;
+  for (std::size_t k = 0; k < parts.size(); ++k)
+  {
+    if (terms[k].kept && parts[k].node->isFaceted())
+    {
+      const MeshPtr mesh = parts[k].node->mesh(edgeLength);
+      const double squares = squaresOf({ { mesh } }, edgeLength);
+      if (static_cast<double>(mesh->triangles.size()) > kPerSquare * squares)
+      {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
 std::vector<Box3> influenceBoxes(const std::vector<BlendPart>& parts)
 {
   std::vector<Box3> boxes;
@@ -401,7 +423,8 @@ TriangleMesh meshByParts(const Node& blend, const std::vector<BlendPart>& parts,
   }
   if (!chooseFirst || keepingCount(terms) < keeping)
   {
-    cells = choose ? markIfCheaper(squaresOf(kept, edgeLength)) : mark(kAllCells);
+    const bool byCost = choose && !isFinerThanLattice(parts, terms, edgeLength);
+    cells = byCost ? markIfCheaper(squaresOf(kept, edgeLength)) : mark(kAllCells);
   }
   const ProgressPart rest(progress, 0.4, 1.0);
   return cells ? stitchOver(blend, field, kept, std::move(*cells), grid, report, rest)

@@ -218,6 +218,17 @@ TEST(BlendMesh, NegativeBallsCarveAndTheRestIsKept)
   EXPECT_LT(signedVolume(*made.mesh), signedVolume(bumpySphere(0.6, 4)));
 }
 
+// At this edge length the lattice is the cheaper way, and coarser than the mesh.
+TEST(BlendMesh, AutomaticKeepsDetailThatTheLatticeWouldLose)
+{
+  const NodePtr scan = meshLeaf(icosphere(1.0, 6), 0.5);
+  const NodePtr bite = ball(Vec3(1.2, 0.2, 0.1), 0.9, 1.6, true);
+  const Made made = make({ scan, bite }, BlendMethod::Automatic, 0.1, 1.0);
+  expectSound(made);
+  expectKept(made, 0.1);
+  EXPECT_GT(made.report.keptTriangles, 10000u);
+}
+
 // Boxes of influence that overlap nearly wholly, around limbs that meet only in the middle.
 TEST(BlendMesh, SlantLimbsAreMarkedWhereTheyMeet)
 {
