@@ -257,14 +257,15 @@ public:
   {
   }
 
-  Near near(const Box3& box) const override
+  Near near(const std::vector<Box3>& boxes) const override
   {
     std::vector<BlendSource::Term> terms;
     Near near;
     for (std::size_t k = 0; k < parts_.size(); ++k)
     {
       const BlendPart& part = parts_[k];
-      if (boxes_[k].intersects(box))
+      if (std::any_of(
+            boxes.begin(), boxes.end(), [&](const Box3& box) { return boxes_[k].intersects(box); }))
       {
         terms.push_back({ FieldSourcePtr(FieldSourcePtr(), part.node), part.count });
         near.dependencies.emplace_back(
@@ -290,7 +291,7 @@ public:
   {
   }
 
-  Near near(const Box3&) const override
+  Near near(const std::vector<Box3>&) const override
   {
     Near near;
     near.source = FieldSourcePtr(FieldSourcePtr(), &blend_);

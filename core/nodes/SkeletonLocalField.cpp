@@ -144,9 +144,18 @@ Dependency SkeletonLocalField::around(const std::vector<Box3>& boxes) const
   return dependencyOn(std::move(contents));
 }
 
-IslandField::Near SkeletonLocalField::near(const Box3& box) const
+IslandField::Near SkeletonLocalField::near(const std::vector<Box3>& boxes) const
 {
-  return { FieldSourcePtr(FieldSourcePtr(), &leaf_), { this->around({ box }) } };
+  // Points that are asked for together may be so far apart, and what is between them counts, but in sums.
+  const bool addsUp = leaf_.options().blending.kind == BlendingKind::All;
+  const Vec3 margin = Vec3::Constant(addsUp ? 0.0 : leaf_.convolution().partSize());
+  std::vector<Box3> wider;
+  wider.reserve(boxes.size());
+  for (const Box3& box : boxes)
+  {
+    wider.emplace_back(Vec3(box.min() - margin), Vec3(box.max() + margin));
+  }
+  return { FieldSourcePtr(FieldSourcePtr(), &leaf_), { this->around(wider) } };
 }
 
 void SkeletonLocalField::findSources(TriangleMesh& island, const Progress&) const

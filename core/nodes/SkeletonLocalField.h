@@ -23,7 +23,7 @@ public:
   explicit SkeletonLocalField(const SubdivisionSkeleton& leaf) : leaf_(leaf) {}
 
   Dependency around(const std::vector<Box3>& boxes) const override;
-  Near near(const Box3& box) const override;
+  Near near(const std::vector<Box3>& boxes) const override;
   /// The nearest piece of the skeleton.
   void findSources(TriangleMesh& island, const Progress& progress) const override;
 

@@ -11,7 +11,6 @@ namespace
 
 using Index = CutZone::Index;
 
-constexpr double kLarge = 3.0; // cells
 constexpr double kLong = 2.0;  // distances from the cut
 constexpr double kFlat = 1e-6; // of the largest coordinate
 constexpr std::size_t kMostTriangles = 4000;

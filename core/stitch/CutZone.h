@@ -20,6 +20,9 @@ public:
   using Index = std::int32_t;
   using Side = std::pair<Index, Index>; ///< two points of the mesh
 
+  /// Whether a side counts as large. Where none at the cells is, the cut depends on nothing else.
+  static bool isLarge(double length, double cellSize) { return length > kLarge * cellSize; }
+
   CutZone(const TriangleMesh& mesh, const KeptMesh& known, const CutMesh& cut, double cellSize);
 
   /// Cut ones first.
@@ -43,6 +46,8 @@ public:
   void findFacets();
 
 private:
+  static constexpr double kLarge = 3.0; // cells
+
   const Vec3& corner(Index t, int k) const { return mesh_.points[mesh_.triangles[t][k % 3]]; }
   bool isLarge(const Vec3& a, const Vec3& b) const;
   void add(Index t);

@@ -26,8 +26,8 @@ public:
 
   virtual ~IslandField() = default;
 
-  /// The field in a box. Equal dependencies mean equal numbers at all points, to the last bit.
-  virtual Near near(const Box3& box) const = 0;
+  /// The field in some boxes. Equal dependencies mean equal numbers at all points, to the last bit.
+  virtual Near near(const std::vector<Box3>& boxes) const = 0;
 
   /// Fills sourceLeaf of an island. Told by the dependencies too.
   virtual void findSources(TriangleMesh& island, const Progress& progress) const = 0;

@@ -9,6 +9,7 @@
 #include "core/stitch/CellIslands.h"
 #include "core/stitch/Island.h"
 #include "core/stitch/KeptMesh.h"
+#include "core/stitch/LocalParts.h"
 
 #include <algorithm>
 #include <map>
@@ -67,13 +68,39 @@ IslandStore& store()
   return *instance;
 }
 
+/// The same by what the parts are near it, where their objects are new.
+struct LocalIslandKey
+{
+  CellGrid grid;
+  std::vector<CellSet::Brick> cells;
+  std::vector<Dependency> field;
+  Contents parts;
+  std::uint64_t sum = 0; ///< hash of it all
+
+  bool operator==(const LocalIslandKey& other) const
+  {
+    return sum == other.sum && grid == other.grid && cells == other.cells && field == other.field &&
+      parts == other.parts;
+  }
+  bool isExpired() const { return anyExpired(field); }
+  std::uint64_t hash() const { return sum; }
+};
+
+using LocalIslandStore = RecentStore<LocalIslandKey, Island>;
+
+LocalIslandStore& localStore()
+{
+  static auto* const instance = new LocalIslandStore(kRememberedBytes); // outlives all statics
+  return *instance;
+}
+
 /// A field without parts. Its islands are forgotten with it.
 class WholeField final : public IslandField
 {
 public:
   explicit WholeField(const FieldSource& field) : field_(field) {}
 
-  Near near(const Box3&) const override
+  Near near(const std::vector<Box3>&) const override
   {
     return { FieldSourcePtr(FieldSourcePtr(), &field_), { { self_, 0.0, 0 } } };
   }
@@ -94,6 +121,8 @@ struct Work
   std::vector<KeptPart> parts; ///< those of these numbers, which are near
   IslandField::Near near;
   IslandKey key;
+  std::optional<LocalParts> local; ///< once it is not known by its key
+  LocalIslandKey localKey;
   std::optional<IslandCut> cut;
   std::shared_ptr<const Island> island;
 
@@ -124,7 +153,7 @@ public:
     {
       works_.push_back(this->prepare(std::move(island)));
     }
-    this->forEachWork([this](Work& work) { work.island = store().find(work.key); });
+    this->forEachWork([this](Work& work) { this->recall(work); });
     do
     {
       this->forEachWork([this](Work& work) { this->cut(work); });
@@ -177,13 +206,15 @@ private:
   Work prepare(CellSet cells) const
   {
     Work work;
+    std::vector<Box3> boxes;
     for (const CellSet::Brick& brick : cells.bricks())
     {
       const Index3 low{ kBrickSide * brick.index[0], kBrickSide * brick.index[1],
         kBrickSide * brick.index[2] };
-      work.box.extend(options_.grid.boxOf(low, kBrickSide, kMargin));
+      boxes.push_back(options_.grid.boxOf(low, kBrickSide, kMargin));
+      work.box.extend(boxes.back());
     }
-    work.near = field_.near(work.box);
+    work.near = field_.near(boxes);
     work.key = { options_.grid, cells.bricks(), work.near.dependencies };
     for (std::size_t p = 0; p < parts_.size(); ++p)
     {
@@ -197,6 +228,44 @@ private:
     }
     work.cells = std::move(cells);
     return work;
+  }
+
+  /// Takes an island that was made before of the same objects, or of what is the same near it.
+  void recall(Work& work) const
+  {
+    work.island = store().find(work.key);
+    if (work.island)
+    {
+      return;
+    }
+    work.local.emplace(work.parts, work.cells, options_.grid);
+    LocalIslandKey& key = work.localKey;
+    key = { options_.grid, work.key.cells, work.near.dependencies, {}, 0 };
+    work.local->describe(key.parts);
+    HashSum sum;
+    sum.add(key.parts.hash());
+    for (const CellSet::Brick& brick : key.cells)
+    {
+      sum.add(Index3Hash()(brick.index));
+    }
+    for (const Dependency& dependency : key.field)
+    {
+      dependency.addTo(sum);
+    }
+    key.sum = sum.value();
+    if (const std::shared_ptr<const Island> known = localStore().find(key))
+    {
+      work.island = std::make_shared<const Island>(work.local->fromPlaces(*known));
+      this->remember(work);
+    }
+  }
+
+  static void remember(const Work& work)
+  {
+    const std::size_t bytes = work.island->bytes() +
+      work.key.cells.size() * sizeof(CellSet::Brick) +
+      work.key.dependencies.size() * sizeof(Dependency);
+    store().keep(work.key, work.island, bytes);
   }
 
   /// Islands that cut triangles at a common point become one. \return whether there are such.
@@ -238,7 +307,7 @@ private:
       }
       cells[k].sort();
       united.push_back(this->prepare(std::move(cells[k])));
-      united.back().island = store().find(united.back().key);
+      this->recall(united.back());
     }
     works_ = std::move(united);
     return true;
@@ -258,12 +327,17 @@ private:
     {
       return;
     }
-    auto island = std::make_shared<const Island>(makeIsland(
+    const bool isLocal = work.local->areAllOf(*work.cut, options_.grid);
+    work.island = std::make_shared<const Island>(makeIsland(
       field_, work.near, work.parts, std::move(*work.cut), work.cells, options_, progress_));
-    const std::size_t bytes = island->bytes() + work.key.cells.size() * sizeof(CellSet::Brick) +
-      work.key.dependencies.size() * sizeof(Dependency);
-    store().keep(work.key, island, bytes);
-    work.island = std::move(island);
+    this->remember(work);
+    if (isLocal)
+    {
+      auto island = std::make_shared<const Island>(work.local->toPlaces(*work.island));
+      const std::size_t bytes = island->bytes() + work.localKey.parts.bytes() +
+        work.localKey.cells.size() * sizeof(CellSet::Brick);
+      localStore().keep(std::move(work.localKey), std::move(island), bytes);
+    }
   }
 
   const IslandField& field_;
@@ -323,6 +397,7 @@ std::optional<StitchedMesh> stitch(const FieldSource& field, const std::vector<K
 void forgetIslands()
 {
   store().clear();
+  localStore().clear();
 }
 
 } // namespace hybridtree

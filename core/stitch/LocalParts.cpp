@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/stitch/LocalParts.h"
+
+#include "core/stitch/CutZone.h"
+#include "core/stitch/KeptMesh.h"
+
+#include <algorithm>
+
+namespace hybridtree
+{
+namespace
+{
+
+using Indices = std::vector<std::int32_t>;
+
+constexpr double kRounding = 1e-6; // cells, as in cutIsland()
+
+void makeUnique(Indices& list)
+{
+  std::sort(list.begin(), list.end());
+  list.erase(std::unique(list.begin(), list.end()), list.end());
+}
+
+Indices cornersOf(const TriangleMesh& mesh, const Indices& triangles)
+{
+  Indices corners;
+  corners.reserve(3 * triangles.size());
+  for (const std::int32_t t : triangles)
+  {
+    corners.insert(corners.end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
+  }
+  makeUnique(corners);
+  return corners;
+}
+
+/// The triangles at some points.
+Indices trianglesAt(const PointTriangles& around, const Indices& points)
+{
+  Indices triangles;
+  for (const std::int32_t v : points)
+  {
+    triangles.insert(triangles.end(), around.of(v), around.of(v) + around.count(v));
+  }
+  makeUnique(triangles);
+  return triangles;
+}
+
+/// Whether the box of a triangle touches a brick of cells, which does not change with what else is
+/// in the mesh.
+bool touches(const Box3& box, const CellSet& cells, const CellGrid& grid)
+{
+  const Vec3 margin = Vec3::Constant(kRounding * grid.cellSize);
+  const Index3 low = brickOf(grid.cellAt(box.min() - margin));
+  const Index3 high = brickOf(grid.cellAt(box.max() + margin));
+  for (std::int64_t z = low[2]; z <= high[2]; ++z)
+  {
+    for (std::int64_t y = low[1]; y <= high[1]; ++y)
+    {
+      for (std::int64_t x = low[0]; x <= high[0]; ++x)
+      {
+        if (cells.find({ x, y, z }))
+        {
+          return true;
+        }
+      }
+    }
+  }
+  return false;
+}
+
+Indices trianglesNear(
+  const TriangleMesh& mesh, const KeptMesh& known, const CellSet& cells, const CellGrid& grid)
+{
+  Indices near = known.blocks().near(cells.boxes(grid, kBrickSide));
+  const auto isFar = [&](std::int32_t t)
+  {
+    Box3 box;
+    for (const std::int32_t v : mesh.triangles[t])
+    {
+      box.extend(mesh.points[v]);
+    }
+    return !touches(box, cells, grid);
+  };
+  near.erase(std::remove_if(near.begin(), near.end(), isFar), near.end());
+  return near;
+}
+
+template <typename T, typename Add>
+void addSome(const std::vector<T>& values, const Indices& some, Contents& contents, Add&& add)
+{
+  contents.add(std::int32_t(values.empty()));
+  if (!values.empty())
+  {
+    std::for_each(some.begin(), some.end(), [&](std::int32_t k) { add(values[k]); });
+  }
+}
+
+std::int32_t placeOf(const Indices& list, std::int32_t number)
+{
+  return std::int32_t(std::lower_bound(list.begin(), list.end(), number) - list.begin());
+}
+
+} // namespace
+
+LocalParts::LocalParts(
+  const std::vector<KeptPart>& parts, const CellSet& cells, const CellGrid& grid)
+{
+  for (const KeptPart& part : parts)
+  {
+    const std::shared_ptr<const KeptMesh> known = KeptMesh::of(part.mesh);
+    const Indices near = trianglesNear(*part.mesh, *known, cells, grid);
+    Part local{ part, trianglesAt(known->pointTriangles(), cornersOf(*part.mesh, near)), {} };
+    local.points = cornersOf(*part.mesh, local.triangles);
+    parts_.push_back(std::move(local));
+  }
+}
+
+bool LocalParts::areAllOf(const IslandCut& cut, const CellGrid& grid) const
+{
+  for (std::size_t p = 0; p < parts_.size(); ++p)
+  {
+    const TriangleMesh& mesh = *parts_[p].part.mesh;
+    for (const std::int32_t t : cut.cuts[p].cutTriangles)
+    {
+      const Triangle& c = mesh.triangles[t];
+      for (int k = 0; k < 3; ++k)
+      {
+        const double length = (mesh.points[c[(k + 1) % 3]] - mesh.points[c[k]]).norm();
+        if (CutZone::isLarge(length, grid.cellSize))
+        {
+          return false;
+        }
+      }
+    }
+  }
+  return true;
+}
+
+void LocalParts::describe(Contents& contents) const
+{
+  const auto addNumber = [&](std::int32_t number) { contents.add(number); };
+  const auto addVector = [&](const Vec3& p)
+  { std::for_each(p.data(), p.data() + 3, [&](double number) { contents.add(number); }); };
+  for (const Part& local : parts_)
+  {
+    const TriangleMesh& mesh = *local.part.mesh;
+    contents.add(local.part.firstLeaf);
+    contents.add(std::int32_t(local.part.isLeaf));
+    contents.add(std::uint64_t(local.triangles.size()));
+    Indices places(local.points.empty() ? 0 : std::size_t(local.points.back()) + 1);
+    for (std::size_t k = 0; k < local.points.size(); ++k)
+    {
+      places[local.points[k]] = std::int32_t(k);
+    }
+    for (const std::int32_t t : local.triangles)
+    {
+      for (const std::int32_t v : mesh.triangles[t])
+      {
+        contents.add(places[v]);
+      }
+    }
+    addSome(mesh.points, local.points, contents, addVector);
+    addSome(mesh.normals, local.points, contents, addVector);
+    addSome(mesh.sourceLeaf, local.triangles, contents, addNumber);
+    addSome(mesh.sourceTriangle, local.triangles, contents, addNumber);
+    addSome(mesh.vertexOrigin, local.points, contents,
+      [&](const VertexOrigin& origin)
+      {
+        contents.add(origin.leaf);
+        contents.add(origin.triangle);
+        contents.add(origin.u);
+        contents.add(origin.v);
+      });
+  }
+}
+
+Island LocalParts::toPlaces(const Island& island) const
+{
+  Island result = island;
+  for (std::size_t p = 0; p < parts_.size(); ++p)
+  {
+    for (std::int32_t& t : result.gone[p])
+    {
+      t = placeOf(parts_[p].triangles, t);
+    }
+  }
+  for (PartPoint& at : result.rim)
+  {
+    at.point = placeOf(parts_[at.part].points, at.point);
+  }
+  return result;
+}
+
+Island LocalParts::fromPlaces(const Island& island) const
+{
+  Island result = island;
+  for (std::size_t p = 0; p < parts_.size(); ++p)
+  {
+    for (std::int32_t& t : result.gone[p])
+    {
+      t = parts_[p].triangles[t];
+    }
+  }
+  for (PartPoint& at : result.rim)
+  {
+    at.point = parts_[at.part].points[at.point];
+  }
+  return result;
+}
+
+} // namespace hybridtree
