@@ -40,12 +40,6 @@ void FarGroup::findNear(double farthest)
   }
 }
 
-bool BlendGroups::areNeighbours(std::int32_t a, std::int32_t b) const
-{
-  const std::vector<std::int32_t>& others = places.neighbours[static_cast<std::size_t>(a)];
-  return std::binary_search(others.begin(), others.end(), b);
-}
-
 GroupNumbers::GroupNumbers(std::size_t groups, Use use) : numbers_(numbers[use]), groups_(met[use])
 {
   groups_.clear();

@@ -56,7 +56,6 @@ struct BlendGroups
   const std::vector<FarGroup>& farGroups; ///< empty with the compact kernel
 
   std::size_t size() const { return places.neighbours.size(); }
-  bool areNeighbours(std::int32_t a, std::int32_t b) const;
   /// Whether fields end, and groups that do not reach a point have no say there.
   bool isLocal() const { return whole.kernel().kind == KernelKind::Compact; }
 };

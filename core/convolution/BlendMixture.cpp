@@ -5,6 +5,12 @@
 
 namespace hybridtree
 {
+namespace
+{
+
+constexpr std::size_t kFewGroups = 16; // of which one sum is found without what all are to another
+
+} // namespace
 
 BlendMixture::BlendMixture(PieceFields& fields, const std::vector<double>& bounds)
   : fields_(fields)
@@ -16,11 +22,17 @@ BlendMixture::BlendMixture(PieceFields& fields, const std::vector<double>& bound
   , total_(points_)
   , here_(points_)
   , distance_(points_)
+  , near_(fields.pieces().groupCount() * points_)
+  , all_(points_)
 {
   std::fill_n(best_.data(), points_, 0.0);
+  if (bounds.size() > kFewGroups)
+  {
+    this->findNearness();
+  }
   for (std::size_t set = 0; set < sets_.size() && this->leastBest() < sets_[set].bound; ++set)
   {
-    if (this->staysPossible(sets_[set]))
+    if (this->staysPossible(sets_[set]) && (set == 0 || this->mayBeBestByShares(sets_[set])))
     {
       this->tryOut(set);
     }
@@ -87,6 +99,48 @@ bool BlendMixture::staysPossible(const BlendSets::Set& set)
   return isPossible;
 }
 
+void BlendMixture::findNearness()
+{
+  fields_.findNearness(near_.data());
+  isNearKnown_ = true;
+  this->clear(all_);
+  for (std::size_t number = 0; number < bounds_.size(); ++number)
+  {
+    this->add(fields_.field(number), all_);
+  }
+}
+
+// All pieces are at least as near to a group as those of one set are.
+bool BlendMixture::mayBeBestByShares(const BlendSets::Set& set)
+{
+  if (!isNearKnown_)
+  {
+    this->findNearness();
+  }
+  this->sumPlaces(set);
+  this->clear(total_);
+  for (const std::size_t* member = set.begin; member != set.end; ++member)
+  {
+    const double* own = fields_.field(*member);
+    const double* near = near_.data() + *member * points_;
+    for (std::size_t k = 0; k < points_; ++k)
+    {
+      if (own[k] > 0.0)
+      {
+        total_[k] += share_(share_.farthest() - near[k] / here_[k]) * own[k];
+      }
+    }
+  }
+  for (std::size_t k = 0; k < points_; ++k)
+  {
+    if (total_[k] > best_[k])
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
 void BlendMixture::sumPlaces(const BlendSets::Set& set)
 {
   this->clear(here_);
@@ -96,15 +150,51 @@ void BlendMixture::sumPlaces(const BlendSets::Set& set)
   }
 }
 
-// D of one member.
+void BlendMixture::findOthers(const BlendSets::Set& set)
+{
+  others_.clear();
+  const std::size_t* next = set.begin;
+  for (std::size_t number = 0; number < bounds_.size(); ++number)
+  {
+    if (next != set.end && *next == number)
+    {
+      ++next;
+    }
+    else if (bounds_[number] > 0.0)
+    {
+      others_.push_back(number);
+    }
+  }
+}
+
+// D of one member: from its set, or from all without the others, which are often few.
 void BlendMixture::findDistance(const BlendSets::Set& set, std::size_t member)
 {
-  this->clear(distance_);
-  for (const std::size_t* place = set.begin; place != set.end; ++place)
+  if (isNearKnown_ && others_.size() < static_cast<std::size_t>(set.end - set.begin))
   {
-    if (*place != member)
+    const double* near = near_.data() + member * points_;
+    for (std::size_t k = 0; k < points_; ++k)
     {
-      this->add(fields_.far(*place, member), distance_);
+      distance_[k] = share_.farthest() * all_[k] - near[k];
+    }
+    for (const std::size_t other : others_)
+    {
+      const double* far = fields_.far(other, member);
+      for (std::size_t k = 0; k < points_; ++k)
+      {
+        distance_[k] -= far[k];
+      }
+    }
+  }
+  else
+  {
+    this->clear(distance_);
+    for (const std::size_t* place = set.begin; place != set.end; ++place)
+    {
+      if (*place != member)
+      {
+        this->add(fields_.far(*place, member), distance_);
+      }
     }
   }
   for (std::size_t k = 0; k < points_; ++k)
@@ -117,6 +207,7 @@ void BlendMixture::tryOut(std::size_t set)
 {
   const BlendSets::Set of = sets_[set];
   this->sumPlaces(of);
+  this->findOthers(of);
   this->clear(total_);
   for (const std::size_t* member = of.begin; member != of.end; ++member)
   {

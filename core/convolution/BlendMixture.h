@@ -34,7 +34,10 @@ private:
 
   bool mayBeBest(const BlendSets::Set& set);
   bool staysPossible(const BlendSets::Set& set);
+  void findNearness();
+  bool mayBeBestByShares(const BlendSets::Set& set);
   void sumPlaces(const BlendSets::Set& set);
+  void findOthers(const BlendSets::Set& set);
   void findDistance(const BlendSets::Set& set, std::size_t member);
   void tryOut(std::size_t set);
 
@@ -47,6 +50,10 @@ private:
   ScratchArray total_;
   ScratchArray here_;
   ScratchArray distance_; ///< D of one member
+  ScratchArray near_; ///< per group and point: sum of f_c (farthest - d(c, j)) over all pieces c
+  ScratchArray all_;  ///< sum of f_c over all pieces c
+  bool isNearKnown_ = false;
+  std::vector<std::size_t> others_; ///< groups with fields here that are not in a set
   std::array<std::size_t, kMostPoints> winners_;
 };
 

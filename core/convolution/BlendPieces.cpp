@@ -266,15 +266,16 @@ void forEachPiece(const BlendPieces& pieces, const Body& body)
   }
 }
 
-// BlendPieces::farthest.
-std::vector<std::vector<GroupDistance>> farthestPlaces(const BlendPieces& pieces, double farthest)
+// The groups that pieces of each meet, with fields that have an end.
+std::vector<std::vector<BlendPieces::Meeting>> findMeetings(
+  const BlendPieces& pieces, double farthest)
 {
   std::vector<Box3> reaches(pieces.neighbours.size());
   forEachPiece(pieces,
     [&](const BlendPieces::Place& place, const Box3& reach)
     { reaches[static_cast<std::size_t>(place.group)].extend(reach); });
   const ElementTree tree(reaches);
-  std::vector<std::vector<GroupDistance>> lists(reaches.size());
+  std::vector<std::vector<BlendPieces::Meeting>> lists(reaches.size());
   forEachPiece(pieces,
     [&](const BlendPieces::Place& place, const Box3& reach)
     {
@@ -285,19 +286,27 @@ std::vector<std::vector<GroupDistance>> farthestPlaces(const BlendPieces& pieces
           if (group != place.group)
           {
             lists[static_cast<std::size_t>(place.group)].push_back(
-              { group, place.from(group, farthest) });
+              { group, false, place.from(group, farthest) });
           }
         });
     });
-  for (std::vector<GroupDistance>& list : lists)
+  for (std::size_t k = 0; k < lists.size(); ++k)
   {
+    std::vector<BlendPieces::Meeting>& list = lists[k];
     // The farthest of a group first: it stays.
     std::sort(list.begin(), list.end(),
-      [](const GroupDistance& a, const GroupDistance& b)
-      { return a.group != b.group ? a.group < b.group : a.distance > b.distance; });
+      [](const BlendPieces::Meeting& a, const BlendPieces::Meeting& b)
+      { return a.group != b.group ? a.group < b.group : a.farthest > b.farthest; });
     list.erase(std::unique(list.begin(), list.end(),
-                 [](const GroupDistance& a, const GroupDistance& b) { return a.group == b.group; }),
+                 [](const BlendPieces::Meeting& a, const BlendPieces::Meeting& b)
+                 { return a.group == b.group; }),
       list.end());
+    for (BlendPieces::Meeting& meeting : list)
+    {
+      const std::vector<std::int32_t>& neighbours = pieces.neighbours[k];
+      meeting.areNeighbours =
+        std::binary_search(neighbours.begin(), neighbours.end(), meeting.group);
+    }
   }
   return lists;
 }
@@ -329,7 +338,7 @@ BlendPieces makeBlendPieces(const GroupedElements& elements, const BlendingContr
 {
   const BlendShare share(control);
   BlendPieces pieces = cutAll(elements, GraphPlaces(elements, share.end()));
-  pieces.farthest = farthestPlaces(pieces, share.farthest());
+  pieces.meetings = findMeetings(pieces, share.farthest());
   return pieces;
 }
 

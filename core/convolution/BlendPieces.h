@@ -30,9 +30,16 @@ struct BlendPieces
 
   /// Per group, ascending, without itself: those it may blend with. Symmetric.
   std::vector<std::vector<std::int32_t>> neighbours;
-  /// Per group, ascending: others with fields at places where it has one, with the compact kernel,
-  /// and how far its pieces that reach there are from them at most.
-  std::vector<std::vector<GroupDistance>> farthest;
+  /// Another group, and how far pieces of this one that have fields where that has one are from it
+  /// at most.
+  struct Meeting
+  {
+    std::int32_t group;
+    bool areNeighbours;
+    double farthest;
+  };
+  /// Per group, ascending: the others that it meets, with the compact kernel.
+  std::vector<std::vector<Meeting>> meetings;
 };
 
 /// \pre BlendingKind::Neighbours.

@@ -23,23 +23,17 @@ struct BlendSelection
     std::int32_t group;
     std::size_t unit;
   };
-  /// Units whose shares in each other's sums may be below 1.
-  struct Pair
-  {
-    std::size_t a, b;
-    bool areNeighbours; ///< there are sums with both
-  };
 
   ElementSelection all; ///< all elements that reach the box
   /// Not everything adds up. Without units nothing more is known.
   bool isControlled = false;
   std::vector<Unit> units;
   std::vector<Group> groups; ///< that reach the box, with their units
-  bool hasRest;              ///< unit 0 is not a single group: it is in no pair
-  std::vector<Pair> apart;
+  bool hasRest;              ///< unit 0 is not a single group: it is apart from none
   /// Row by row of units x units: how far places on the first that reach the second are from it at
   /// most; for the rest, places on any of its groups or the distance from any.
   std::vector<double> farthest;
+  std::vector<char> areUnjoined; ///< the same, symmetric: no sum has both, and they meet
 
   bool empty() const { return all.empty(); }
   ElementSpans elementsOf(std::size_t unit) const

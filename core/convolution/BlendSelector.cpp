@@ -15,9 +15,10 @@ struct Workspace
 {
   std::vector<std::size_t> segmentGroups; // numbers, per element of the selection
   std::vector<std::size_t> triangleGroups;
-  std::vector<double> farthest;    // per pair of numbers
-  std::vector<std::size_t> units;  // per number
-  std::vector<std::size_t> groups; // per unit one of its numbers
+  std::vector<double> farthest;                              // per pair of numbers
+  std::vector<std::pair<std::size_t, std::size_t>> unjoined; // numbers that no sum has both of
+  std::vector<std::size_t> units;                            // per number
+  std::vector<std::size_t> groups;                           // per unit one of its numbers
   std::vector<const SegmentElement*> segments;
   std::vector<const TriangleElement*> triangles;
 };
@@ -124,11 +125,12 @@ private:
     const std::size_t count = numbers_.size();
     work_.farthest.assign(count * count, 0.0);
     work_.units.assign(count, 0);
+    work_.unjoined.clear();
     bool areApart = false;
     for (std::size_t k = 0; k < count; ++k)
     {
-      for (const GroupDistance& other :
-        field_.places.farthest[static_cast<std::size_t>(numbers_.group(k))])
+      for (const BlendPieces::Meeting& other :
+        field_.places.meetings[static_cast<std::size_t>(numbers_.group(k))])
       {
         const std::int32_t number = numbers_.find(other.group);
         if (number < 0)
@@ -136,8 +138,12 @@ private:
           continue;
         }
         const auto at = static_cast<std::size_t>(number);
-        work_.farthest[count * k + at] = other.distance;
-        if (other.distance > begin_)
+        work_.farthest[count * k + at] = other.farthest;
+        if (!other.areNeighbours)
+        {
+          work_.unjoined.emplace_back(k, at);
+        }
+        if (other.farthest > begin_)
         {
           work_.units[k] = work_.units[at] = 1;
           areApart = true;
@@ -177,17 +183,13 @@ private:
         most = std::max(most, work_.farthest[groups * a + b]);
       }
     }
-    for (std::size_t a = selection_.hasRest ? 1 : 0; a < units; ++a)
+    selection_.areUnjoined.assign(units * units, 0);
+    for (const auto& [a, b] : work_.unjoined)
     {
-      for (std::size_t b = a + 1; b < units; ++b)
-      {
-        if (std::max(selection_.farthest[units * a + b], selection_.farthest[units * b + a]) >
-          begin_)
-        {
-          const auto group = [&](std::size_t unit) { return numbers_.group(work_.groups[unit]); };
-          selection_.apart.push_back({ a, b, field_.areNeighbours(group(a), group(b)) });
-        }
-      }
+      const std::size_t first = work_.units[a];
+      const std::size_t second = work_.units[b];
+      selection_.areUnjoined[units * first + second] = 1;
+      selection_.areUnjoined[units * second + first] = 1;
     }
   }
 
@@ -200,7 +202,6 @@ void clearUnits(BlendSelection& selection)
   selection.isControlled = false;
   selection.units.clear();
   selection.groups.clear();
-  selection.apart.clear();
 }
 
 thread_local Workspace workspace;

@@ -11,7 +11,8 @@ namespace hybridtree
 /// these elements by units.
 void selectBlends(const BlendGroups& groups, BlendSelection& selection);
 
-/// The same where any two groups may be apart: each is a unit. Sets all but apart and farthest.
+/// The same where any two groups may be apart: each is a unit. Sets all but farthest and
+/// areUnjoined.
 void selectGroups(const ElementGroups& groups, BlendSelection& selection);
 
 } // namespace hybridtree

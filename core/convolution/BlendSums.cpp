@@ -27,7 +27,7 @@ public:
     , farthest_(selection.farthest)
     , points_(points)
     , own_(selection.units.size() * points.size)
-    , isReached_(selection.units.size())
+    , isReached_(selection.units.size(), 0)
   {
   }
 
@@ -58,8 +58,11 @@ public:
       {
         value[k] += own[k];
       }
-      isReached_[unit] = static_cast<char>(
-        std::any_of(own, own + points_.size, [](double field) { return field > 0.0; }));
+      if (std::any_of(own, own + points_.size, [](double field) { return field > 0.0; }))
+      {
+        isReached_[unit] = 1;
+        reached_.push_back(unit);
+      }
     }
   }
 
@@ -67,22 +70,22 @@ public:
   void findOpen(double* isOpen)
   {
     std::fill_n(isOpen, points_.size, 0.0);
-    const std::size_t count = selection_.units.size();
-    mayBeFar_.assign(count, 0);
-    for (const BlendSelection::Pair& pair : selection_.apart)
+    mayBeFar_.assign(selection_.units.size(), 0);
+    for (const std::size_t unit : reached_)
     {
-      if (isReached_[pair.a] && isReached_[pair.b])
+      if (unit == 0 && selection_.hasRest)
       {
-        mayBeFar_[pair.a] |= static_cast<char>(this->farthest(pair.b, pair.a) > share_.begin());
-        mayBeFar_[pair.b] |= static_cast<char>(this->farthest(pair.a, pair.b) > share_.begin());
-        if (!pair.areNeighbours)
+        continue;
+      }
+      for (const std::size_t other : reached_)
+      {
+        const std::size_t pair = other * selection_.units.size() + unit;
+        mayBeFar_[unit] |= static_cast<char>(farthest_[pair] > share_.begin());
+        if (other < unit && selection_.areUnjoined[pair])
         {
-          this->findUnjoined(pair, isOpen);
+          this->findUnjoined(unit, other, isOpen);
         }
       }
-    }
-    for (std::size_t unit = 0; unit < count; ++unit)
-    {
       if (mayBeFar_[unit])
       {
         this->findFar(unit, isOpen);
@@ -105,6 +108,7 @@ public:
     }
     const std::vector<double> before = farthest_;
     std::fill(farthest_.begin(), farthest_.end(), 0.0);
+    std::vector<double> distances; // of the pieces of one group from all
     for (std::size_t number = 0; number < unitOf.size(); ++number)
     {
       const std::size_t unit = unitOf[number];
@@ -112,13 +116,13 @@ public:
       {
         continue;
       }
+      this->findFarthest(pieces, number, distances);
       for (std::size_t other = 0; other < unitOf.size(); ++other)
       {
         if (unitOf[other] != kNone && mayBeFar_[unitOf[other]])
         {
           const std::size_t pair = unit * units + unitOf[other];
-          const double distance = this->farthest(pieces, number, pieces.group(other));
-          farthest_[pair] = std::max(farthest_[pair], std::min(before[pair], distance));
+          farthest_[pair] = std::max(farthest_[pair], std::min(before[pair], distances[other]));
         }
       }
     }
@@ -131,15 +135,30 @@ private:
     return farthest_[a * selection_.units.size() + b];
   }
 
-  // Of the pieces of a group.
-  double farthest(const PiecesNear& pieces, std::size_t number, std::int32_t from) const
+  // Of the pieces of a group, per number the distance that is farthest.
+  void findFarthest(
+    const PiecesNear& pieces, std::size_t number, std::vector<double>& distances)
   {
-    double distance = 0.0;
+    const auto count = static_cast<std::int32_t>(pieces.end(number) - pieces.begin(number));
+    distances.assign(pieces.groupCount(), 0.0);
+    nearPieces_.assign(pieces.groupCount(), 0);
     for (std::size_t k = pieces.begin(number); k < pieces.end(number); ++k)
     {
-      distance = std::max(distance, pieces[k].place->from(from, share_.farthest()));
+      for (const GroupDistance& near : pieces[k].place->distances)
+      {
+        const std::int32_t other = pieces.find(near.group);
+        if (other >= 0)
+        {
+          double& most = distances[static_cast<std::size_t>(other)];
+          most = std::max(most, near.distance);
+          ++nearPieces_[static_cast<std::size_t>(other)];
+        }
+      }
     }
-    return distance;
+    for (std::size_t other = 0; other < distances.size(); ++other)
+    {
+      distances[other] = nearPieces_[other] < count ? share_.farthest() : distances[other];
+    }
   }
 
   // D = sum of f_c d / sum of f_c > begin, with distances that are at least d.
@@ -151,9 +170,9 @@ private:
     {
       excess[k] = -share_.begin() * own[k];
     }
-    for (std::size_t other = 0; other < selection_.units.size(); ++other)
+    for (const std::size_t other : reached_)
     {
-      if (other != unit && isReached_[other])
+      if (other != unit)
       {
         const double* field = this->own(other);
         const double weight = this->farthest(other, unit) - share_.begin();
@@ -171,10 +190,10 @@ private:
 
   // Two groups that are no neighbours are in one sum only as neighbours of a third. All groups are
   // neighbours of those of the rest, or never have fields where these do.
-  void findUnjoined(const BlendSelection::Pair& pair, double* isOpen)
+  void findUnjoined(std::size_t first, std::size_t second, double* isOpen)
   {
-    const double* a = this->own(pair.a);
-    const double* b = this->own(pair.b);
+    const double* a = this->own(first);
+    const double* b = this->own(second);
     const double* rest = selection_.hasRest ? this->own(0) : nullptr;
     for (std::size_t k = 0; k < points_.size; ++k)
     {
@@ -189,7 +208,9 @@ private:
   PointBatch points_;
   ScratchArray own_;            // per unit
   std::vector<char> isReached_; // per unit: any of the points
-  std::vector<char> mayBeFar_;  // per unit: from another that reaches any
+  std::vector<std::size_t> reached_;
+  std::vector<char> mayBeFar_;                   // per unit: from another that reaches any
+  std::vector<std::int32_t> nearPieces_; // per number, of a group: how many are near it
 };
 
 // As mixBlends() or ownBlend(), of some points.

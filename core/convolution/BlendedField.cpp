@@ -386,12 +386,12 @@ void BlendedField::addFieldAndGradient(
 // f_j add up to F.
 double BlendedField::mixedSlope(const BlendSelection& selection, const Box3& box) const
 {
-  const double farthest = BlendShare(control_).farthest();
+  const BlendShare share(control_);
   if (selection.units.empty())
   {
     FieldBounds all;
     whole_.addBounds(selection.all, box, all);
-    return (1.0 + BlendShare::kSteepest * farthest) * all.slope;
+    return (1.0 + BlendShare::kSteepest * share.farthest()) * all.slope;
   }
   std::vector<FieldBounds> bounds(selection.units.size());
   double slope = 0.0;
@@ -405,13 +405,16 @@ double BlendedField::mixedSlope(const BlendSelection& selection, const Box3& box
     return paper_->slope(selection, bounds);
   }
   double distance = 0.0;
-  for (const BlendSelection::Pair& pair : selection.apart)
+  for (std::size_t a = selection.hasRest ? 1 : 0; a < bounds.size(); ++a)
   {
-    if (bounds[pair.a].value > 0.0 && bounds[pair.b].value > 0.0)
+    for (std::size_t b = a + 1; bounds[a].value > 0.0 && b < bounds.size(); ++b)
     {
-      const auto between = [&](std::size_t a, std::size_t b)
-      { return selection.farthest[a * bounds.size() + b]; };
-      distance = std::max({ distance, between(pair.a, pair.b), between(pair.b, pair.a) });
+      const double between = std::max(
+        selection.farthest[a * bounds.size() + b], selection.farthest[b * bounds.size() + a]);
+      if (between > share.begin() && bounds[b].value > 0.0)
+      {
+        distance = std::max(distance, between);
+      }
     }
   }
   return distance > 0.0 ? (1.0 + BlendShare::kSteepest * distance) * slope : 0.0;

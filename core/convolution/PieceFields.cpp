@@ -131,6 +131,36 @@ const double* PieceFields::far(std::size_t number, std::size_t j)
   return sum;
 }
 
+void PieceFields::findNearness(double* rows)
+{
+  const std::size_t size = points_.size;
+  std::fill_n(rows, pieces_.groupCount() * size, 0.0);
+  for (std::size_t number = 0; number < pieces_.groupCount(); ++number)
+  {
+    this->field(number);
+  }
+  for (std::size_t piece = 0; piece < pieces_.size(); ++piece)
+  {
+    const double* value = this->row(single_, piece);
+    if (std::all_of(value, value + size, [](double field) { return field == 0.0; }))
+    {
+      continue;
+    }
+    for (const GroupDistance& near : pieces_[piece].place->distances)
+    {
+      const std::int32_t other = pieces_.find(near.group);
+      if (other >= 0)
+      {
+        double* sum = rows + static_cast<std::size_t>(other) * size;
+        for (std::size_t k = 0; k < size; ++k)
+        {
+          sum[k] += (farthest_ - near.distance) * value[k];
+        }
+      }
+    }
+  }
+}
+
 void PieceFields::addFieldAndGradient(
   std::size_t piece, PointBatch points, double* value, VectorBatch gradient) const
 {

@@ -49,6 +49,9 @@ public:
   const double* field(std::size_t number);
   /// The sum of f_c d(c, j) over the pieces of a group. Valid until the next call.
   const double* far(std::size_t number, std::size_t j);
+  /// Overwrites `rows`: per group j and point the sum of f_c (farthest - d(c, j)) over all pieces
+  /// c.
+  void findNearness(double* rows);
   /// d(c, j) for all numbers j. \pre field() of its group was asked for.
   const double* distances(std::size_t piece) const
   {
