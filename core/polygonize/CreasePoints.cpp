@@ -3,9 +3,9 @@
 
 #include "core/base/Parallel.h"
 #include "core/base/Scratch.h"
+#include "core/polygonize/CreaseJudge.h"
 #include "core/polygonize/CreasePolygon.h"
 #include "core/polygonize/NearSurface.h"
-#include "core/polygonize/NormalsOnWay.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,14 +22,6 @@ constexpr double kWays[] = { 0.95, 0.5, 0.2, 0.1, 0.02 };
 constexpr int kSteps = 5;
 constexpr int kShifting = 2; // the step after which it moves along the crease no more,
 constexpr int kJudging = 3;  // and the one at which it must look like a crease
-
-// Between two corners, steps of the normal no larger than this are no crease, radians; where they
-// are larger, so often two are made of one.
-constexpr double kRoundStep = 0.3;
-constexpr int kHalvings = 1;
-// Places on the way over where their planes meet: shares of the way from there to one corner,
-// and the other.
-constexpr double kWaysBetween[] = { -0.6, -0.2, 0.2, 0.6 };
 
 constexpr double kLeastShare = 0.5; // of the angle between the corners' normals that is left there
 // What is merely curved: with normals at the corners no further apart than the first; or than the
@@ -87,13 +79,10 @@ public:
 
   void run()
   {
+    this->dropRound();
     for (int step = 0; step < kSteps; ++step)
     {
       this->ask(kWays[step]);
-      if (step == 0)
-      {
-        this->dropRound();
-      }
       for (Search& search : searches_)
       {
         search.alive = search.alive && this->narrow(search, step);
@@ -154,55 +143,30 @@ private:
     }
   }
 
-  /// Drops polygons that are bent as a whole, where the field's normal turns by and by on the way
-  /// from one corner over the place where the planes meet to another: cheap to see, and smooth
-  /// surfaces have no others.
+  /// Drops polygons that are merely curved, which two of their corners tell. Where the planes of
+  /// all of them meet there would be a tip.
   void dropRound()
   {
-    std::vector<NormalsOnWay> ways;
-    std::vector<std::size_t> bent;
-    for (std::size_t k = 0; k < searches_.size(); ++k)
+    std::vector<CreasePair> pairs;
+    for (Search& search : searches_)
     {
-      Search& search = searches_[k];
-      search.widest = widestPair(search.planes);
-      if (search.widest.angle < kMostBend)
+      TouchingPlanes planes;
+      for (std::size_t k = 0; k < search.polygon.size(); ++k)
       {
-        ways.push_back(this->wayBetween(search));
-        bent.push_back(k);
+        planes.push_back({ search.polygon.meshNormal(k), search.polygon.corner(k), 0.0, 0.0 });
       }
+      search.widest = widestPair(planes);
+      const Meeting meeting = meetingOf(planes, search.middle, kFarthest * cell_);
+      pairs.push_back({ { planes[search.widest.first], planes[search.widest.second] },
+        meeting.found ? meeting.point : search.middle });
     }
-    askForNormals(field_, ways);
-    for (int halving = 0; halving < kHalvings; ++halving)
+    judgeCreasePairs(field_, leastAngle_, kFarthest * cell_, pairs);
+    for (std::size_t k = 0; k < pairs.size(); ++k)
     {
-      for (NormalsOnWay& way : ways)
-      {
-        way.halveAbove(kRoundStep);
-      }
-      askForNormals(field_, ways);
+      searches_[k].alive = !pairs[k].isRound;
+      searches_[k].isJudged = pairs[k].isRound;
+      searches_[k].mostTurn = pairs[k].mostTurn;
     }
-    for (std::size_t n = 0; n < bent.size(); ++n)
-    {
-      Search& search = searches_[bent[n]];
-      const double turn = ways[n].mostTurn();
-      search.isJudged = turn < kRoundStep;
-      search.mostTurn = turn;
-      search.alive = !search.isJudged;
-    }
-  }
-
-  NormalsOnWay wayBetween(const Search& search) const
-  {
-    const TouchingPlane& from = search.planes[search.widest.first];
-    const TouchingPlane& to = search.planes[search.widest.second];
-    const Meeting meeting = meetingOf(search.planes, search.middle, kFarthest * cell_);
-    const Vec3 top = meeting.found ? meeting.point : Vec3(0.5 * (from.at + to.at));
-    NormalsOnWay way(from.at, from.normal);
-    for (const double share : kWaysBetween)
-    {
-      way.add(top + std::abs(share) * ((share < 0.0 ? from.at : to.at) - top));
-    }
-    way.add(to.at, to.normal);
-    return way;
   }
 
   /// One step nearer to the crease; false where there is none.
@@ -210,6 +174,7 @@ private:
   {
     if (step == 0)
     {
+      search.widest = widestPair(search.planes);
       this->keepNormals(search);
     }
     for (const TouchingPlane& plane : search.planes)

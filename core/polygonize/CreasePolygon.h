@@ -21,6 +21,11 @@ public:
 
   std::size_t size() const { return loop_.corners.size(); }
   const Vec3& corner(std::size_t k) const { return mesh_.points[loop_.corners[k % this->size()]]; }
+  /// Of the mesh there.
+  const Vec3& meshNormal(std::size_t k) const
+  {
+    return mesh_.normals[loop_.corners[k % this->size()]];
+  }
   Vec3 middle() const;
   double beyondCell(const Vec3& p) const { return cell_.exteriorDistance(p); }
 
