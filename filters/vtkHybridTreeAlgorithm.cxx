@@ -214,11 +214,12 @@ vtkPolyData* vtkHybridTreeAlgorithm::GetWholeInput(int port)
     return nullptr;
   }
   state.Joined.push_back(hybridtree::joined(connections.front()));
-  auto* whole = vtkPolyData::SafeDownCast(state.Joined.back());
-  if (whole)
+  if (!state.Joined.back())
   {
-    hybridtree::requireValidCells(whole);
+    return nullptr;
   }
+  vtkPolyData* whole = hybridtree::requireMesh(state.Joined.back());
+  hybridtree::requireValidCells(whole);
   return whole;
 }
 

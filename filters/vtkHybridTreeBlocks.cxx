@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkHybridTreeBlocks.h"
 
+#include "core/base/Error.h"
 #include "vtkAlgorithm.h"
 #include "vtkAppendFilter.h"
 #include "vtkAppendPolyData.h"
@@ -158,9 +159,22 @@ vtkSmartPointer<vtkDataSet> joined(const std::vector<Block>& blocks)
   return append->GetOutput();
 }
 
+vtkPolyData* requireMesh(vtkDataSet* data)
+{
+  auto* mesh = vtkPolyData::SafeDownCast(data);
+  if (!mesh)
+  {
+    throw InvalidGeometry(std::string("It is a ") + data->GetClassName() +
+      ", which is no surface mesh. Apply Contour to it first, for a surface in its values, or "
+      "Extract Surface, for its border.");
+  }
+  return mesh;
+}
+
 void takeComposite(vtkInformation* port)
 {
   port->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
+  port->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataSet");
 }
 
 } // namespace hybridtree

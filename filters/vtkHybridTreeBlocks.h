@@ -13,6 +13,7 @@
 
 class vtkDataObject;
 class vtkInformation;
+class vtkPolyData;
 
 namespace hybridtree
 {
@@ -39,7 +40,11 @@ HYBRIDTREEFILTERS_EXPORT std::vector<Block> blocksOf(vtkDataObject* input);
 /// there is one, else a polydata where all are, else an unstructured grid. Null without blocks.
 HYBRIDTREEFILTERS_EXPORT vtkSmartPointer<vtkDataSet> joined(const std::vector<Block>& blocks);
 
-/// Lets an input port take composite data as well, whole instead of block by block.
+/// The data set as a mesh. \throws InvalidGeometry that says how to make one of it.
+HYBRIDTREEFILTERS_EXPORT vtkPolyData* requireMesh(vtkDataSet* data);
+
+/// Lets an input port take composite data as well, whole instead of block by block; and data sets
+/// of every kind, so that requireMesh() can say more of those that are no mesh than VTK would.
 HYBRIDTREEFILTERS_EXPORT void takeComposite(vtkInformation* port);
 
 } // namespace hybridtree

@@ -50,13 +50,7 @@ void appendAllWarnings(
 vtkPolyData* meshOf(const Block& block)
 {
   requireData(block.data != nullptr);
-  auto* mesh = vtkPolyData::SafeDownCast(block.data);
-  if (!mesh)
-  {
-    throw InvalidGeometry(std::string("It is a ") + block.data->GetClassName() +
-      ", which is no surface mesh. Apply Extract Surface to it first.");
-  }
-  return mesh;
+  return requireMesh(block.data);
 }
 
 void readBlock(const Block& from, OperandBlock& to, std::vector<std::string>& newWarnings)

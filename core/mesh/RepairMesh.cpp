@@ -4,6 +4,7 @@
 #include "core/base/Error.h"
 #include "core/geometry/Predicates.h"
 #include "core/mesh/Orient.h"
+#include "core/mesh/Seams.h"
 
 #include <algorithm>
 #include <cstring>
@@ -123,7 +124,7 @@ std::vector<bool> findDuplicates(const std::vector<Triangle>& triangles)
 
 struct Counts
 {
-  std::size_t welded = 0;
+  std::size_t joined = 0;     // by seams
   std::size_t degenerate = 0; // repeated corner
   std::size_t flat = 0;       // three points on one line
   std::size_t duplicate = 0;
@@ -140,16 +141,63 @@ public:
   RepairedMesh run()
   {
     checkInput(points_, triangles_);
-    this->weld();
-    this->dropBadTriangles();
-    this->compactPoints();
-    const Orientation orientation = orientTriangles(mesh_);
-    this->tell(orientation);
+    this->tell(this->makeWithSeams());
     result_.mesh = std::make_shared<const TriangleMesh>(std::move(mesh_));
     return std::move(result_);
   }
 
 private:
+  Orientation make()
+  {
+    mesh_ = {};
+    result_ = {};
+    counts_ = {};
+    used_.clear();
+    this->weld();
+    this->dropBadTriangles();
+    this->compactPoints();
+    return orientTriangles(mesh_);
+  }
+
+  Orientation makeWithSeams()
+  {
+    const Orientation before = this->make();
+    if (before.openEdges == 0 || !this->findSeams())
+    {
+      return before;
+    }
+    const Orientation after = this->make();
+    if (after.openEdges < before.openEdges && after.nonManifoldEdges <= before.nonManifoldEdges)
+    {
+      return after;
+    }
+    seam_.clear();
+    return this->make();
+  }
+
+  // Whether there are any; between points that welding takes for others.
+  bool findSeams()
+  {
+    const std::vector<std::int32_t> targets = seamPoints(mesh_);
+    if (targets.empty())
+    {
+      return false;
+    }
+    seam_.assign(points_.size(), -1);
+    for (std::size_t k = 0; k < targets.size(); ++k)
+    {
+      seam_[std::size_t(used_[k])] = used_[std::size_t(targets[k])];
+    }
+    return true;
+  }
+
+  std::int32_t joined(std::int32_t point)
+  {
+    const std::int32_t target = seam_.empty() ? point : seam_[std::size_t(point)];
+    counts_.joined += target >= 0 && target != point;
+    return target >= 0 ? target : point;
+  }
+
   void weld()
   {
     Welder welder(points_);
@@ -162,8 +210,7 @@ private:
         std::int32_t& target = first[std::size_t(vertex)];
         if (target < 0)
         {
-          target = welder.representative(vertex);
-          counts_.welded += target != vertex;
+          target = this->joined(welder.representative(vertex));
         }
         vertex = target;
       }
@@ -222,6 +269,7 @@ private:
       {
         place[k] = std::int32_t(mesh_.points.size());
         mesh_.points.push_back(points_[k]);
+        used_.push_back(std::int32_t(k));
       }
     }
     for (Triangle& corner : mesh_.triangles)
@@ -239,14 +287,27 @@ private:
 
   void say(std::size_t count, const char* one, const char* many, const std::string& rest)
   {
+    add(result_.warnings, count, one, many, rest);
+  }
+
+  void blame(std::size_t count, const char* one, const char* many, const std::string& rest)
+  {
+    add(result_.faults, count, one, many, rest);
+  }
+
+  static void add(std::vector<std::string>& to, std::size_t count, const char* one,
+    const char* many, const std::string& rest)
+  {
     if (count > 0)
     {
-      result_.warnings.push_back(plural(count, one, many) + " " + rest);
+      to.push_back(plural(count, one, many) + " " + rest);
     }
   }
 
   void tell(const Orientation& orientation)
   {
+    this->say(counts_.joined, "point", "points",
+      "of open edges joined with others that differ by less than a millionth of the diagonal.");
     this->say(counts_.degenerate, "triangle", "triangles", "that repeated a point dropped.");
     this->say(counts_.flat, "triangle", "triangles",
       orientation.openEdges > 0
@@ -258,16 +319,19 @@ private:
       "turned to agree with the neighbours.");
     this->say(orientation.flippedShells, "closed shell", "closed shells",
       "turned: outer shells point outward, shells inside an odd number of others bound cavities.");
-    this->say(orientation.oneSidedShells, "shell", "shells",
+    this->blame(orientation.oneSidedShells, "shell", "shells",
       "cannot be oriented: one-sided, as a Moebius strip is.");
-    this->say(orientation.nonManifoldEdges, "edge", "edges", "shared by more than two triangles.");
-    this->say(orientation.openEdges, "open edge", "open edges",
+    this->blame(
+      orientation.nonManifoldEdges, "edge", "edges", "shared by more than two triangles.");
+    this->blame(orientation.openEdges, "open edge", "open edges",
       "of one triangle only: the mesh is not closed.");
   }
 
   const std::vector<Vec3>& points_;
   const std::vector<Triangle>& triangles_;
   TriangleMesh mesh_;
+  std::vector<std::int32_t> used_; // per point of the mesh the input point that it is
+  std::vector<std::int32_t> seam_; // per input point the one that stands for it; -1: itself
   Counts counts_;
   RepairedMesh result_;
 };

@@ -18,13 +18,17 @@ struct RepairedMesh
   std::vector<std::int32_t> pointMap;
   /// Per triangle of the mesh: the input triangle it is.
   std::vector<std::int32_t> triangleMap;
-  /// One sentence per kind of repair or remaining fault, with its count. Empty for a clean mesh.
+  /// One sentence per kind of repair, with its count. Empty for a clean mesh.
   std::vector<std::string> warnings;
+  /// The same of what is still wrong, of which a mesh leaf warns, too.
+  std::vector<std::string> faults;
 };
 
 /// Makes a consistent triangle mesh out of what files and other programs deliver:
 /// - points with exactly equal coordinates become one (-0 equals 0), so that closed surfaces with
 ///   doubled seams close; unused points go;
+/// - points of open edges that differ by rounding only (Seams.h) become one, if that leaves fewer
+///   open edges and no more edges of more than two triangles;
 /// - triangles with a repeated corner or three corners on one line are dropped, and so are second
 ///   copies of a triangle (whichever way round);
 /// - neighbours across an edge of two triangles are brought to one orientation, and closed shells

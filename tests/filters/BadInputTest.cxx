@@ -16,6 +16,7 @@
 #include "vtkHybridTreePoint.h"
 #include "vtkHybridTreeTaper.h"
 #include "vtkHybridTreeTwist.h"
+#include "vtkImageData.h"
 #include "vtkPointData.h"
 #include "vtkSphereSource.h"
 
@@ -73,6 +74,18 @@ struct Tetrahedron
   vtkNew<vtkCellArray> cells;
   vtkNew<vtkPolyData> data;
 };
+
+TEST(BadInput, WhatIsNoMeshIsToldHowToBecomeOne)
+{
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(3, 3, 3);
+  vtkNew<vtkHybridTreeBlend> blend;
+  blend->AddInputDataObject(0, image);
+  expectError(blend, { "Input", "vtkImageData", "Contour", "Extract Surface" });
+  vtkNew<vtkHybridTreeCurveSkeletons> curves;
+  curves->SetInputDataObject(0, image);
+  expectError(curves, { "vtkImageData", "Extract Surface" });
+}
 
 TEST(BadInput, Parameters)
 {

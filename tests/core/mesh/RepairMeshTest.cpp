@@ -25,8 +25,9 @@ RepairedMesh repair(const TriangleMesh& mesh)
 
 bool says(const RepairedMesh& result, const std::string& text)
 {
-  return std::any_of(result.warnings.begin(), result.warnings.end(),
-    [&](const std::string& warning) { return warning.find(text) != std::string::npos; });
+  const auto holds = [&](const std::string& told) { return told.find(text) != std::string::npos; };
+  return std::any_of(result.warnings.begin(), result.warnings.end(), holds) ||
+    std::any_of(result.faults.begin(), result.faults.end(), holds);
 }
 
 TriangleMesh turned(TriangleMesh mesh)
@@ -177,6 +178,46 @@ TEST(RepairMesh, TellsOfTheTJunctionThatAFlatTriangleLeaves)
   const RepairedMesh result = repair(mesh);
   EXPECT_TRUE(says(result, "T-junctions"));
   EXPECT_TRUE(says(result, "3 open edges"));
+}
+
+// As turned profiles and files in text have them: sides of seams that differ by rounding.
+TEST(RepairMesh, JoinsSeamsThatDifferByRounding)
+{
+  test::Random random(11);
+  for (const double scale : { 1e-6, 1.0, 1e6 })
+  {
+    TriangleMesh mesh = soup(test::bumpySphere(scale, 3));
+    for (Vec3& point : mesh.points)
+    {
+      point += 1e-7 * scale * random.direction();
+    }
+    const RepairedMesh result = repair(mesh);
+    ASSERT_EQ(result.pointMap.size(), mesh.points.size());
+    for (std::size_t k = 0; k < mesh.points.size(); ++k)
+    {
+      const Vec3& kept = result.mesh->points.at(std::size_t(result.pointMap[k]));
+      EXPECT_LE((kept - mesh.points[k]).norm(), 3e-7 * scale);
+    }
+    EXPECT_TRUE(isClosedManifold(*result.mesh)) << checkMesh(*result.mesh).describe();
+    EXPECT_TRUE(says(result, "joined with others"));
+    EXPECT_TRUE(result.faults.empty());
+  }
+}
+
+TEST(RepairMesh, JoinsNothingThatIsWiderApart)
+{
+  TriangleMesh slit = soup(test::icosphere(1.0, 2));
+  for (std::size_t k = 0; k < slit.points.size(); k += 3)
+  {
+    const Vec3 middle = (slit.points[k] + slit.points[k + 1] + slit.points[k + 2]) / 3.0;
+    for (std::size_t corner = k; corner < k + 3; ++corner)
+    {
+      slit.points[corner] += 1e-4 * (middle - slit.points[corner]);
+    }
+  }
+  const RepairedMesh result = repair(slit);
+  EXPECT_EQ(result.mesh->points.size(), slit.points.size());
+  EXPECT_FALSE(says(result, "joined with others"));
 }
 
 TEST(RepairMesh, CountsWhatItCannotRepair)
