@@ -68,11 +68,24 @@ public:
           contents_.add(other);
         }
       }
-      this->addDistances(places.farthest[group]);
+      this->addMeetings(places.meetings[group]);
     }
   }
 
 private:
+  void addMeetings(const std::vector<BlendPieces::Meeting>& meetings)
+  {
+    for (const BlendPieces::Meeting& meeting : meetings)
+    {
+      if (isMet_[static_cast<std::size_t>(meeting.group)])
+      {
+        contents_.add(meeting.group);
+        contents_.add(meeting.farthest);
+      }
+    }
+    contents_.add(std::int32_t(-1));
+  }
+
   std::vector<char> isMet_;
   Contents& contents_;
 };
