@@ -261,9 +261,7 @@ void BlendedField::forCompactParts(PointBatch points, Body&& body) const
   std::array<std::size_t, kPart> index;
   ScratchVectors gathered(std::min(kPart, points.size));
   const VectorBatch to = gathered.batch();
-  const std::size_t few = this->kernel().kind == KernelKind::Cauchy ? kFewFarPoints
-    : pieces_                                                       ? 1
-                                                                    : kFewPoints;
+  const std::size_t few = this->kernel().kind == KernelKind::Cauchy ? kFewFarPoints : kFewPoints;
   // Parts that are too large are halved along their longest side.
   const auto handle = [&](auto&& self, std::size_t* begin, std::size_t* end) -> void
   {

@@ -40,9 +40,6 @@ public:
 
   Box3 influenceBounds() const { return whole_.influenceBounds(); }
 
-  /// How far apart points may be that are asked for together, unless everything adds up.
-  double partSize() const { return partSize_; }
-
   /// What reaches the box. Overwrites `selection`.
   void select(const Box3& box, BlendSelection& selection) const;
 
@@ -82,7 +79,7 @@ private:
 
   BlendingControl control_;
   ConvolutionField whole_;
-  double partSize_;
+  double partSize_; ///< how far apart points may be that are asked for together
   std::vector<std::int32_t> segmentGroups_;
   std::vector<std::int32_t> triangleGroups_;
   std::size_t groupCount_;

@@ -146,16 +146,16 @@ Dependency SkeletonLocalField::around(const std::vector<Box3>& boxes) const
 
 IslandField::Near SkeletonLocalField::near(const std::vector<Box3>& boxes) const
 {
-  // Points that are asked for together may be so far apart, and what is between them counts, but in sums.
-  const bool addsUp = leaf_.options().blending.kind == BlendingKind::All;
-  const Vec3 margin = Vec3::Constant(addsUp ? 0.0 : leaf_.convolution().partSize());
-  std::vector<Box3> wider;
-  wider.reserve(boxes.size());
-  for (const Box3& box : boxes)
+  const FieldSourcePtr source(FieldSourcePtr(), &leaf_);
+  if (leaf_.options().blending.kind == BlendingKind::All)
   {
-    wider.emplace_back(Vec3(box.min() - margin), Vec3(box.max() + margin));
+    return { source, { this->around(boxes) } };
   }
-  return { FieldSourcePtr(FieldSourcePtr(), &leaf_), { this->around(wider) } };
+  // Where not all adds up, what lies between points that are asked for together may change the
+  // order of sums, though not their value.
+  Box3 all;
+  std::for_each(boxes.begin(), boxes.end(), [&](const Box3& box) { all.extend(box); });
+  return { source, { this->around({ all }) } };
 }
 
 void SkeletonLocalField::findSources(TriangleMesh& island, const Progress&) const

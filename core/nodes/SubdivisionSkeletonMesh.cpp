@@ -72,6 +72,7 @@ private:
     Vec3 center;
     double size;
     double radius; // the largest of the skeleton
+    std::size_t order;
 
     double leastDistance(const Vec3& p) const { return ((p - center).norm() - size) / radius; }
   };
@@ -82,7 +83,7 @@ private:
     std::vector<Candidate> candidates;
     const auto add = [&](bool isSegment, std::size_t element, std::int32_t piece, auto corners)
     {
-      Candidate of{ isSegment, element, piece, Vec3::Zero(), 0.0, 0.0 };
+      Candidate of{ isSegment, element, piece, Vec3::Zero(), 0.0, 0.0, candidates.size() };
       for (const std::int32_t corner : corners)
       {
         of.center += this->at(corner) / double(corners.size());
@@ -105,26 +106,44 @@ private:
       add(false, t, leaf_.pieces().triangles[std::size_t(refined.triangleParents[t])],
         refined.triangles[t]);
     }
-    return candidates;
+    // The nearest come first: then most others are told to be farther by their balls.
+    const Vec3 p = inverse_ * box.center();
+    std::vector<std::pair<double, std::size_t>> byDistance;
+    for (const Candidate& of : candidates)
+    {
+      byDistance.emplace_back(of.leastDistance(p), of.order);
+    }
+    std::sort(byDistance.begin(), byDistance.end());
+    std::vector<Candidate> sorted;
+    sorted.reserve(candidates.size());
+    for (const auto& [distance, order] : byDistance)
+    {
+      sorted.push_back(candidates[order]);
+    }
+    return sorted;
   }
 
+  /// Of those equally near the first.
   std::int32_t nearest(const std::vector<Candidate>& candidates, const Vec3& p) const
   {
     double least = std::numeric_limits<double>::infinity();
-    std::int32_t piece = -1;
+    const Candidate* best = nullptr;
     for (const Candidate& of : candidates)
     {
-      if (of.leastDistance(p) >= least)
+      if (of.leastDistance(p) > least)
       {
         continue;
       }
       const double distance = of.isSegment
         ? this->distanceToSegment(p, leaf_.refined().segments[of.element])
         : this->distanceToTriangle(p, leaf_.refined().triangles[of.element]);
-      piece = distance < least ? of.piece : piece;
-      least = std::min(least, distance);
+      if (distance < least || (distance == least && of.order < best->order))
+      {
+        best = &of;
+        least = distance;
+      }
     }
-    return piece;
+    return best ? best->piece : -1;
   }
 
   const Vec3& at(std::int32_t point) const { return leaf_.refined().points[std::size_t(point)]; }

@@ -15,10 +15,28 @@ using Indices = std::vector<std::int32_t>;
 
 constexpr double kRounding = 1e-6; // cells, as in cutIsland()
 
-void makeUnique(Indices& list)
+/// Sorted, each once. \param size above all numbers.
+void makeUnique(Indices& list, std::size_t size)
 {
-  std::sort(list.begin(), list.end());
-  list.erase(std::unique(list.begin(), list.end()), list.end());
+  if (size > 16 * list.size())
+  {
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+    return;
+  }
+  std::vector<char> isThere(size, 0);
+  for (const std::int32_t number : list)
+  {
+    isThere[number] = 1;
+  }
+  list.clear();
+  for (std::size_t number = 0; number < size; ++number)
+  {
+    if (isThere[number])
+    {
+      list.push_back(std::int32_t(number));
+    }
+  }
 }
 
 Indices cornersOf(const TriangleMesh& mesh, const Indices& triangles)
@@ -29,20 +47,33 @@ Indices cornersOf(const TriangleMesh& mesh, const Indices& triangles)
   {
     corners.insert(corners.end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
   }
-  makeUnique(corners);
+  makeUnique(corners, mesh.points.size());
   return corners;
 }
 
 /// The triangles at some points.
-Indices trianglesAt(const PointTriangles& around, const Indices& points)
+Indices trianglesAt(const TriangleMesh& mesh, const PointTriangles& around, const Indices& points)
 {
   Indices triangles;
+  triangles.reserve(6 * points.size());
   for (const std::int32_t v : points)
   {
     triangles.insert(triangles.end(), around.of(v), around.of(v) + around.count(v));
   }
-  makeUnique(triangles);
+  makeUnique(triangles, mesh.triangles.size());
   return triangles;
+}
+
+std::vector<Box3> brickBoxes(const CellSet& cells, const CellGrid& grid)
+{
+  std::vector<Box3> boxes;
+  for (const CellSet::Brick& brick : cells.bricks())
+  {
+    const Index3 low{ kBrickSide * brick.index[0], kBrickSide * brick.index[1],
+      kBrickSide * brick.index[2] };
+    boxes.push_back(grid.boxOf(low, kBrickSide, kRounding));
+  }
+  return boxes;
 }
 
 /// Whether the box of a triangle touches a brick of cells, which does not change with what else is
@@ -71,7 +102,7 @@ bool touches(const Box3& box, const CellSet& cells, const CellGrid& grid)
 Indices trianglesNear(
   const TriangleMesh& mesh, const KeptMesh& known, const CellSet& cells, const CellGrid& grid)
 {
-  Indices near = known.blocks().near(cells.boxes(grid, kBrickSide));
+  Indices near = known.blocks().near(brickBoxes(cells, grid));
   const auto isFar = [&](std::int32_t t)
   {
     Box3 box;
@@ -109,7 +140,8 @@ LocalParts::LocalParts(
   {
     const std::shared_ptr<const KeptMesh> known = KeptMesh::of(part.mesh);
     const Indices near = trianglesNear(*part.mesh, *known, cells, grid);
-    Part local{ part, trianglesAt(known->pointTriangles(), cornersOf(*part.mesh, near)), {} };
+    Part local{ part, trianglesAt(*part.mesh, known->pointTriangles(), cornersOf(*part.mesh, near)),
+      {} };
     local.points = cornersOf(*part.mesh, local.triangles);
     parts_.push_back(std::move(local));
   }

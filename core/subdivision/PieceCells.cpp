@@ -14,35 +14,67 @@ namespace
 constexpr std::size_t kRememberedBytes = std::size_t(64) << 20;
 constexpr double kMargin = 0.25; // around triangles, in cells: more than pieces differ by
 
-/// The first triangle that came into each cell, in bricks.
-class FirstTriangles
+/// The first triangle that came into each cell, in bricks, and which cells are unsettled.
+class CellOwners
 {
 public:
   static constexpr std::int32_t kNone = -1;
 
-  std::int32_t& at(const Index3& cell)
+  struct Owner
+  {
+    std::int32_t triangle = kNone;
+    bool isSettled = true;
+  };
+
+  Owner& at(const Index3& cell)
   {
     const Index3 brick = brickOf(cell);
-    if (brick != last_ || bricks_.empty())
+    if (bricks_.empty() || brick != bricks_[last_].index)
     {
-      const auto [found, isNew] = index_.try_emplace(brick, bricks_.size());
+      const auto [found, isNew] = places_.try_emplace(brick, bricks_.size());
       if (isNew)
       {
-        bricks_.emplace_back();
-        bricks_.back().fill(kNone);
+        bricks_.push_back({ brick, {} });
       }
-      at_ = found->second;
-      last_ = brick;
+      last_ = found->second;
     }
     const auto place = [&](int axis) { return std::size_t(cell[axis] - kBrickSide * brick[axis]); };
-    return bricks_[at_][(place(2) * kBrickSide + place(1)) * kBrickSide + place(0)];
+    return bricks_[last_].owners[(place(2) * kBrickSide + place(1)) * kBrickSide + place(0)];
+  }
+
+  PieceCells cells() const
+  {
+    PieceCells cells;
+    for (const OwnedBrick& brick : bricks_)
+    {
+      CellSet::Brick all{ brick.index, {} };
+      CellSet::Brick unsettled{ brick.index, {} };
+      for (std::size_t k = 0; k < brick.owners.size(); ++k)
+      {
+        constexpr std::size_t kLayer = kBrickSide * kBrickSide;
+        const std::uint64_t bit = std::uint64_t(1) << k % kLayer;
+        all.bits[k / kLayer] |= brick.owners[k].triangle != kNone ? bit : 0;
+        unsettled.bits[k / kLayer] |= brick.owners[k].isSettled ? 0 : bit;
+      }
+      cells.all.insertBrick(all);
+      if (unsettled.size() > 0)
+      {
+        cells.unsettled.insertBrick(unsettled);
+      }
+    }
+    return cells;
   }
 
 private:
-  Index3 last_{};
-  std::size_t at_ = 0;
-  std::vector<std::array<std::int32_t, kBrickPoints>> bricks_;
-  std::unordered_map<Index3, std::size_t, Index3Hash> index_;
+  struct OwnedBrick
+  {
+    Index3 index;
+    std::array<Owner, kBrickPoints> owners;
+  };
+
+  std::size_t last_ = 0;
+  std::vector<OwnedBrick> bricks_;
+  std::unordered_map<Index3, std::size_t, Index3Hash> places_;
 };
 
 template <typename Visit>
@@ -107,8 +139,7 @@ PieceCells findPieceCells(
     const auto& [a, b, c] = piece.triangles[t];
     return Vec3((piece.bases[a] + piece.bases[b] + piece.bases[c]) / 3.0);
   };
-  PieceCells cells;
-  FirstTriangles first;
+  CellOwners owners;
   for (std::size_t t = 0; t < piece.triangles.size(); ++t)
   {
     const auto& [a, b, c] = piece.triangles[t];
@@ -123,20 +154,14 @@ PieceCells findPieceCells(
     visitCells(box, grid,
       [&](const Index3& cell)
       {
-        std::int32_t& owner = first.at(cell);
-        const bool isNew = owner == FirstTriangles::kNone;
-        if (isNew)
-        {
-          owner = std::int32_t(t);
-          cells.all.insert(cell);
-        }
-        if (!isSettled || (!isNew && (baseOf(std::size_t(owner)) - base).norm() >= apart))
-        {
-          cells.unsettled.insert(cell);
-        }
+        CellOwners::Owner& owner = owners.at(cell);
+        const bool isNew = owner.triangle == CellOwners::kNone;
+        owner.triangle = isNew ? std::int32_t(t) : owner.triangle;
+        owner.isSettled = owner.isSettled && isSettled &&
+          (isNew || (baseOf(std::size_t(owner.triangle)) - base).norm() < apart);
       });
   }
-  return cells;
+  return owners.cells();
 }
 
 std::shared_ptr<const PieceCells> pieceCells(const std::shared_ptr<const PieceMesh>& piece,
