@@ -3,8 +3,10 @@
 // real closed meshes, and on the hard cases of tests/core/boolean. Counts what is wrong, with the
 // same measure for the peers.
 //
-//   MeshBooleanFuzz [-n placements, default 2000] [-f first seed, default 1]
-//     [-p placements that the peers get too, default 30] mesh.off ...
+//   MeshBooleanFuzz [-n placements, default 2000] [-c near ones, default 0] [-f first seed, default
+//     1] [-p placements that the peers get too, default 30] mesh.off ...
+//
+// Near ones (NearCases.h) nearly or exactly share faces, edges or points.
 //
 // Meshes that are open, no 2-manifold or (by CGAL) cross themselves are named and left out. In
 // Debian, meshes come with libcgal-demo:
@@ -18,12 +20,12 @@
 // and is over.
 
 #include "benchmarks/support/PeerBooleans.h"
+#include "benchmarks/support/SolidPool.h"
 #include "core/boolean/MeshBoolean.h"
-#include "core/mesh/MeshBvh.h"
 #include "core/mesh/MeshChecks.h"
-#include "core/mesh/MeshSide.h"
 #include "core/mesh/RepairMesh.h"
 #include "tests/core/boolean/BooleanCases.h"
+#include "tests/core/boolean/NearCases.h"
 #include "tests/support/Random.h"
 
 #include <sys/wait.h>
@@ -34,9 +36,9 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
+#include <functional>
+#include <map>
 #include <memory>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -53,113 +55,19 @@ constexpr std::array<const char*, 3> kNames = { "union", "intersection", "differ
 constexpr std::size_t kSamples = 1000;
 constexpr unsigned kPeerSeconds = 20;
 
-std::unique_ptr<TriangleMesh> readOff(const std::string& file)
-{
-  std::ifstream stream(file);
-  std::string text;
-  for (std::string line; std::getline(stream, line);)
-  {
-    text += line.substr(0, line.find('#')) + "\n";
-  }
-  std::istringstream words(text);
-  std::string magic;
-  std::size_t points = 0, faces = 0, edges = 0;
-  if (!(words >> magic >> points >> faces >> edges) || magic != "OFF")
-  {
-    return nullptr;
-  }
-  auto mesh = std::make_unique<TriangleMesh>();
-  mesh->points.resize(points);
-  for (Vec3& p : mesh->points)
-  {
-    words >> p.x() >> p.y() >> p.z();
-  }
-  std::string line;
-  for (std::size_t f = 0; f < faces && words >> std::ws && std::getline(words, line); ++f)
-  {
-    std::istringstream face(line); // colours may follow
-    std::size_t corners = 0;
-    face >> corners;
-    std::vector<std::int32_t> v(corners);
-    for (std::int32_t& corner : v)
-    {
-      face >> corner;
-    }
-    for (std::size_t k = 2; k < corners; ++k)
-    {
-      mesh->triangles.push_back({ v[0], v[k - 1], v[k] });
-    }
-  }
-  return mesh;
-}
-
-// A mesh of the pool, of diagonal 2 about the origin, with its inside test.
-struct Solid
-{
-  std::string name;
-  TriangleMesh mesh;
-  MeshBvh bvh;
-  MeshSide side;
-
-  Solid(std::string solidName, TriangleMesh solidMesh)
-    : name(std::move(solidName)), mesh(std::move(solidMesh)), bvh(mesh), side(mesh, bvh)
-  {
-  }
-  bool contains(const Vec3& p) const { return side.side(p) > 0; }
-};
-
-using Pool = std::vector<std::unique_ptr<const Solid>>;
-
-void addToPool(const std::string& file, Pool& pool)
-{
-  const std::string name = file.substr(file.rfind('/') + 1);
-  const std::unique_ptr<TriangleMesh> read = readOff(file);
-  if (!read || read->empty())
-  {
-    std::printf("%s: left out, not read as triangles\n", name.c_str());
-    return;
-  }
-  try
-  {
-    TriangleMesh mesh = *repairMesh(read->points, read->triangles).mesh;
-    const Box3 bounds = mesh.bounds();
-    for (Vec3& p : mesh.points)
-    {
-      p = (p - bounds.center()) * (2.0 / bounds.diagonal().norm());
-    }
-    const MeshReport report = checkMesh(mesh);
-    if (!report.closedManifold() || !(signedVolume(mesh) > 1e-4))
-    {
-      std::printf("%s: left out, %s\n", name.c_str(),
-        report.closedManifold() ? "encloses nothing" : report.describe().c_str());
-    }
-    else if (crossesItself(mesh))
-    {
-      std::printf("%s: left out, crosses itself\n", name.c_str());
-    }
-    else
-    {
-      pool.push_back(std::make_unique<const Solid>(name, std::move(mesh)));
-    }
-  }
-  catch (const std::exception& error)
-  {
-    std::printf("%s: left out, %s\n", name.c_str(), error.what());
-  }
-}
-
-// Two solids, the second one moved.
+// Two solids as they are put together, and what tells inside.
 struct Placement
 {
-  const Solid& a;
-  const Solid& b;
-  Affine3 map;
-  TriangleMesh moved;
+  std::string name;
+  const TriangleMesh& a;
+  const TriangleMesh& b;
+  std::function<bool(const Vec3&)> isInA;
+  std::function<bool(const Vec3&)> isInB;
 
   bool contains(MeshOperation operation, const Vec3& p) const
   {
-    const bool inA = a.contains(p);
-    const bool inB = b.contains(map.inverse(Eigen::Isometry) * p);
+    const bool inA = isInA(p);
+    const bool inB = isInB(p);
     return operation == MeshOperation::Union     ? inA || inB
       : operation == MeshOperation::Intersection ? inA && inB
                                                  : inA && !inB;
@@ -169,8 +77,8 @@ struct Placement
 // Whether a volume is as many standard deviations off as chance does not explain.
 bool isOff(const Placement& pair, MeshOperation operation, double volume, std::uint64_t seed)
 {
-  Box3 box = pair.a.mesh.bounds();
-  box.extend(pair.moved.bounds());
+  Box3 box = pair.a.bounds();
+  box.extend(pair.b.bounds());
   for (const std::size_t count : { kSamples, 25 * kSamples, 400 * kSamples })
   {
     Random random(seed + count);
@@ -216,9 +124,9 @@ struct Tally
 void runOurs(const Placement& pair, std::uint64_t seed, Tally& tally)
 {
   const auto start = std::chrono::steady_clock::now();
-  const BooleanResults results = allOperations(pair.a.mesh, pair.moved);
+  const BooleanResults results = allOperations(pair.a, pair.b);
   tally.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  std::string fault = faultsOf(results, pair.a.mesh, pair.moved);
+  std::string fault = faultsOf(results, pair.a, pair.b);
   const std::array<const MeshBooleanResult*, 3> each = { &results.unite, &results.intersect,
     &results.subtract };
   for (std::size_t k = 0; k < 3 && fault.empty(); ++k)
@@ -228,8 +136,9 @@ void runOurs(const Placement& pair, std::uint64_t seed, Tally& tally)
   ++(fault.empty() ? tally.right : tally.wrong);
   if (!fault.empty())
   {
-    std::printf("seed %llu, %s and %s: %s\n", static_cast<unsigned long long>(seed),
-      pair.a.name.c_str(), pair.b.name.c_str(), fault.c_str());
+    std::printf("seed %llu, %s: %s\n", static_cast<unsigned long long>(seed), pair.name.c_str(),
+      fault.c_str());
+    std::fflush(stdout);
   }
 }
 
@@ -267,9 +176,8 @@ struct PeerTally
 
 void runPeers(const Placement& pair, std::uint64_t seed, std::vector<PeerTally>& tallies)
 {
-  const std::array<std::unique_ptr<PeerBoolean>, 3> peers = { cgalCorefinement(
-                                                                pair.a.mesh, pair.moved),
-    vtkLoopBoolean(pair.a.mesh, pair.moved), vtkBooleanOperation(pair.a.mesh, pair.moved) };
+  const std::array<std::unique_ptr<PeerBoolean>, 3> peers = { cgalCorefinement(pair.a, pair.b),
+    vtkLoopBoolean(pair.a, pair.b), vtkBooleanOperation(pair.a, pair.b) };
   tallies.resize(peers.size());
   for (std::size_t p = 0; p < peers.size(); ++p)
   {
@@ -295,44 +203,70 @@ void runHardCases(Tally& tally)
   }
 }
 
-} // namespace
-
-int main(int argc, char** argv)
+struct Tallies
 {
-  std::uint64_t placements = 2000, first = 1, withPeers = 30;
-  Pool pool;
-  for (int k = 1; k < argc; ++k)
-  {
-    if (argv[k][0] == '-' && k + 1 < argc)
-    {
-      const std::uint64_t value = std::strtoull(argv[k + 1], nullptr, 10);
-      (argv[k][1] == 'n' ? placements : argv[k][1] == 'p' ? withPeers : first) = value;
-      ++k;
-      continue;
-    }
-    addToPool(argv[k], pool);
-  }
-  Tally hard, ours;
-  runHardCases(hard);
+  Tally hard;
+  Tally random;
+  Tally near;
   std::vector<PeerTally> peers;
-  for (std::uint64_t seed = first; seed < first + placements && !pool.empty(); ++seed)
+};
+
+const Solid& anyOf(const Pool& pool, Random& random)
+{
+  return *pool[std::size_t(random.integer(0, int(pool.size()) - 1))];
+}
+
+void runPlacements(const Pool& pool, std::uint64_t first, std::uint64_t count,
+  std::uint64_t withPeers, Tallies& tallies)
+{
+  for (std::uint64_t seed = first; seed < first + count && !pool.empty(); ++seed)
   {
     Random random(seed);
-    const Solid& a = *pool[std::size_t(random.integer(0, int(pool.size()) - 1))];
-    const Solid& b = *pool[std::size_t(random.integer(0, int(pool.size()) - 1))];
+    const Solid& a = anyOf(pool, random);
+    const Solid& b = anyOf(pool, random);
     const Affine3 map = randomPlacement(random, 0.8);
-    const Placement pair{ a, b, map, moved(b.mesh, map) };
-    runOurs(pair, seed, ours);
+    const TriangleMesh placed = moved(b.mesh, map);
+    const Placement pair{ a.name + " and " + b.name, a.mesh, placed,
+      [&](const Vec3& p) { return a.contains(p); },
+      [&](const Vec3& p) { return b.contains(map.inverse(Eigen::Isometry) * p); } };
+    runOurs(pair, seed, tallies.random);
     if (seed < first + withPeers)
     {
-      runPeers(pair, seed, peers);
+      runPeers(pair, seed, tallies.peers);
     }
   }
-  std::printf("%zu meshes in the pool\n", pool.size());
-  std::printf("hard cases: %d right, %d wrong\n", hard.right, hard.wrong);
-  std::printf("random placements, three operations each: %d right, %d wrong; %.1f s for all\n",
-    ours.right, ours.wrong, ours.seconds);
-  for (const PeerTally& peer : peers)
+}
+
+void runNearPlacements(const Pool& pool, std::uint64_t first, std::uint64_t count, Tally& tally)
+{
+  const std::vector<NearCase> cases = nearCases();
+  for (std::uint64_t seed = first; seed < first + count && !pool.empty(); ++seed)
+  {
+    Random random(seed);
+    const NearCase& near = cases[seed % cases.size()];
+    const Solid& first = anyOf(pool, random);
+    const Solid& second = anyOf(pool, random);
+    NearPair made = near.make(random, first.mesh, second.mesh);
+    const std::string name = near.name + ": " + first.name + " and " + second.name;
+    const Solid a(name, std::move(made.a));
+    const Solid b(name, std::move(made.b));
+    const Placement pair{ name, a.mesh, b.mesh, [&](const Vec3& p) { return a.contains(p); },
+      [&](const Vec3& p) { return b.contains(p); } };
+    runOurs(pair, seed, tally);
+  }
+}
+
+void print(const Tallies& tallies)
+{
+  std::printf("hard cases: %d right, %d wrong\n", tallies.hard.right, tallies.hard.wrong);
+  const auto printPlacements = [](const char* name, const Tally& tally)
+  {
+    std::printf("%s, three operations each: %d right, %d wrong; %.1f s for all\n", name,
+      tally.right, tally.wrong, tally.seconds);
+  };
+  printPlacements("random placements", tallies.random);
+  printPlacements("near placements", tallies.near);
+  for (const PeerTally& peer : tallies.peers)
   {
     std::printf("%s:", peer.name.c_str());
     for (std::size_t k = 0; k < 3; ++k)
@@ -342,5 +276,29 @@ int main(int argc, char** argv)
     }
     std::printf("\n");
   }
-  return hard.wrong + ours.wrong == 0 ? 0 : 1;
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+  std::map<char, std::uint64_t> option = { { 'n', 2000 }, { 'c', 0 }, { 'f', 1 }, { 'p', 30 } };
+  Pool pool;
+  for (int k = 1; k < argc; ++k)
+  {
+    if (argv[k][0] == '-' && k + 1 < argc)
+    {
+      option[argv[k][1]] = std::strtoull(argv[k + 1], nullptr, 10);
+      ++k;
+      continue;
+    }
+    addToPool(argv[k], pool);
+  }
+  std::printf("%zu meshes in the pool\n", pool.size());
+  Tallies tallies;
+  runHardCases(tallies.hard);
+  runPlacements(pool, option['f'], option['n'], option['p'], tallies);
+  runNearPlacements(pool, option['f'], option['c'], tallies.near);
+  print(tallies);
+  return tallies.hard.wrong + tallies.random.wrong + tallies.near.wrong == 0 ? 0 : 1;
 }
