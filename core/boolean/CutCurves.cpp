@@ -187,9 +187,7 @@ void place(const MeshOperand& mine, const MeshOperand& other, const PerturbedPre
     { siteOf(other, corner[0], !second), siteOf(other, corner[1], !second),
       siteOf(other, corner[2], !second) });
   crossing.parameter = t;
-  // From the nearer end, so that the ends are met exactly.
-  crossing.position = t < 0.5 ? Vec3(low.position + t * (high.position - low.position))
-                              : Vec3(high.position + (1.0 - t) * (low.position - high.position));
+  crossing.position = pointOnEdge(low.position, high.position, t);
 }
 
 CutCurves::Cuts cutsOf(const std::vector<Segment>& segments, std::size_t mesh)
@@ -217,6 +215,12 @@ CutCurves::Cuts cutsOf(const std::vector<Segment>& segments, std::size_t mesh)
 }
 
 } // namespace
+
+Vec3 pointOnEdge(const Vec3& low, const Vec3& high, double parameter)
+{
+  return parameter < 0.5 ? Vec3(low + parameter * (high - low))
+                         : Vec3(high + (1.0 - parameter) * (low - high));
+}
 
 CutCurves cutCurves(const MeshOperand& a, const MeshOperand& b,
   const PerturbedPredicates& predicates, std::vector<Segment> segments)

@@ -43,6 +43,9 @@ struct CutCurves
   std::array<Cuts, 2> cuts;
 };
 
+/// From the nearer end, so that the ends are met exactly.
+Vec3 pointOnEdge(const Vec3& low, const Vec3& high, double parameter);
+
 /// \throws Cancelled; InvalidGeometry where the predicates fail to tell.
 CutCurves cutCurves(const MeshOperand& a, const MeshOperand& b,
   const PerturbedPredicates& predicates, std::vector<Segment> segments);

@@ -298,6 +298,39 @@ private:
     return inside;
   }
 
+  // The smallest part around most of a hole: rounding may put a point of it beyond the border.
+  std::size_t faceAround(
+    const Triangulator::Loop& hole, const std::vector<std::vector<Triangulator::Loop>>& faces) const
+  {
+    if (faces.size() == 1)
+    {
+      return 0;
+    }
+    constexpr std::size_t kMost = 7;
+    const std::size_t step = (hole.size() + kMost - 1) / kMost;
+    std::size_t best = faces.size();
+    std::size_t most = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t f = 0; f < faces.size(); ++f)
+    {
+      std::size_t inside = 0;
+      for (std::size_t k = 0; k < hole.size(); k += step)
+      {
+        const PlanarPoint& p = points_[std::size_t(hole[k])];
+        const PlanarPoint& q = points_[std::size_t(hole[(k + 1) % hole.size()])];
+        inside += this->contains(faces[f][0], { 0.5 * (p.x + q.x), 0.5 * (p.y + q.y), 0 });
+      }
+      const double area = inside > 0 && inside >= most ? this->areaOf(faces[f][0]) : least;
+      if (inside > most || area < least)
+      {
+        best = f;
+        most = inside;
+        least = area;
+      }
+    }
+    return best;
+  }
+
   // Clockwise closed curves are holes in the smallest part around them.
   void triangulateAll(std::size_t fromBorder)
   {
@@ -321,20 +354,10 @@ private:
     }
     for (Triangulator::Loop& hole : holes)
     {
-      std::vector<Triangulator::Loop>* around = nullptr;
-      double least = std::numeric_limits<double>::infinity();
-      for (std::vector<Triangulator::Loop>& face : faces)
+      const std::size_t around = this->faceAround(hole, faces);
+      if (around < faces.size())
       {
-        const double area = this->areaOf(face[0]);
-        if (area < least && this->contains(face[0], points_[std::size_t(hole[0])]))
-        {
-          least = area;
-          around = &face;
-        }
-      }
-      if (around)
-      {
-        around->push_back(std::move(hole));
+        faces[around].push_back(std::move(hole));
       }
       else
       {

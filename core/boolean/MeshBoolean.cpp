@@ -21,6 +21,10 @@ namespace
 
 constexpr std::uint64_t kSeed = 0x9b1d7f4a3c25e681ull;
 constexpr int kAttempts = 3;
+// How far B is moved in or out where nothing less will do: of the smaller operand's size, but never
+// less than so much of the largest coordinate, since that is what rounding does.
+constexpr std::array<double, 3> kDistances = { 0x1p-40, 0x1p-31, 0x1p-22 };
+constexpr double kRounding = 0x1p-44;
 
 std::array<Keep, 2> keptBy(MeshOperation operation)
 {
@@ -61,60 +65,142 @@ bool isSame(const TriangleMesh& a, const TriangleMesh& b)
   return &a == &b || (a.triangles == b.triangles && a.points == b.points);
 }
 
-MeshBooleanResult cut(MeshOperation operation, const MeshOperand& a, const MeshOperand& b,
-  std::uint64_t seed, const Progress& progress)
+// B with each point moved along its outward direction.
+MeshOperand swollen(const MeshOperand& b, double distance)
 {
-  // B swells, or shrinks for an intersection: what touches merges, A - A is empty, A & A is A.
-  const double swell = operation == MeshOperation::Intersection ? -1.0 : 1.0;
-  const PerturbedPredicates predicates(
-    [&b, swell](std::int32_t vertex) { return Vec3(swell * b.outward(vertex)); }, seed);
-  const std::array<Keep, 2> keep = keptBy(operation);
-  const std::array<const MeshOperand*, 2> operands = { &a, &b };
-
-  const CutCurves curves = cutCurves(
-    a, b, predicates, triangleCrossings(a, b, predicates, ProgressPart(progress, 0.0, 0.4)));
-  progress.check();
-  progress.report(0.5);
-  const MeshSides sides = meshSides(a, b, predicates, curves);
-  progress.check();
-  progress.report(0.7);
-  bool contradictory = sides.contradictory;
-  std::array<CutFaces, 2> faces;
-  for (std::size_t mesh = 0; mesh < 2; ++mesh)
+  auto mesh = std::make_shared<TriangleMesh>();
+  mesh->triangles = b.mesh().triangles;
+  mesh->points = b.mesh().points;
+  for (std::size_t k = 0; k < mesh->points.size(); ++k)
   {
-    faces[mesh] = cutFaces(*operands[mesh], int(mesh), keep[mesh], curves, sides, contradictory);
-    progress.check();
+    mesh->points[k] += distance * b.outward(std::int32_t(k)).stableNormalized();
   }
-  progress.report(0.8);
-  if (contradictory)
-  {
-    MeshBooleanResult nothing;
-    nothing.usable = false;
-    return nothing;
-  }
-  MeshBooleanResult result = assemble(operands, keep, curves, sides, faces);
-  cleanResult(result);
-  return result;
+  return MeshOperand(mesh);
 }
 
-MeshBooleanResult cutOrRetry(
-  MeshOperation operation, const MeshOperand& a, const MeshOperand& b, const Progress& progress)
+// Onto the edges as they were before B was moved.
+void placeOnEdgesOf(const MeshOperand& b, CutCurves& curves)
 {
-  for (int attempt = 1;; ++attempt)
+  const std::vector<Vec3>& points = b.mesh().points;
+  for (Crossing& crossing : curves.crossings)
   {
-    try
+    if (crossing.mesh == 1)
     {
-      return cut(operation, a, b, kSeed * std::uint64_t(attempt), progress);
+      crossing.position = pointOnEdge(
+        points[std::size_t(crossing.low)], points[std::size_t(crossing.high)], crossing.parameter);
     }
-    catch (const InvalidGeometry&)
+  }
+}
+
+class Cut
+{
+public:
+  Cut(MeshOperation operation, const MeshOperand& a, const MeshOperand& b, const Progress& progress)
+    : keep_(keptBy(operation))
+    , swell_(operation == MeshOperation::Intersection ? -1.0 : 1.0)
+    , a_(a)
+    , b_(b)
+    , progress_(progress)
+  {
+  }
+
+  /// Exactly; where surfaces contradict themselves, with B moved by more and more.
+  MeshBooleanResult run() const
+  {
+    MeshBooleanResult result = this->seeded(b_, 0.0);
+    double last = 0.0;
+    for (const double distance : this->distances())
     {
-      if (attempt == kAttempts)
+      if (!result.usable && distance > last)
       {
-        throw;
+        result = this->seeded(swollen(b_, swell_ * distance), distance);
+        last = distance;
+      }
+    }
+    return result;
+  }
+
+private:
+  // Those that are small beside both operands.
+  std::vector<double> distances() const
+  {
+    const Box3 boundsA = a_.mesh().bounds();
+    const Box3 boundsB = b_.mesh().bounds();
+    const Box3 both = boundsA.merged(boundsB);
+    const double size = std::min(boundsA.sizes().norm(), boundsB.sizes().norm());
+    const double least =
+      kRounding * both.min().cwiseAbs().cwiseMax(both.max().cwiseAbs()).maxCoeff();
+    std::vector<double> result;
+    for (const double share : kDistances)
+    {
+      if (least <= kDistances.back() * size)
+      {
+        result.push_back(std::max(least, share * size));
+      }
+    }
+    return result;
+  }
+
+  MeshBooleanResult seeded(const MeshOperand& moved, double distance) const
+  {
+    for (int attempt = 1;; ++attempt)
+    {
+      try
+      {
+        return this->once(moved, distance, kSeed * std::uint64_t(attempt));
+      }
+      catch (const InvalidGeometry&)
+      {
+        if (attempt == kAttempts)
+        {
+          throw;
+        }
       }
     }
   }
-}
+
+  // `moved` is B where it is cut; what is made of it has the points of B.
+  MeshBooleanResult once(const MeshOperand& moved, double distance, std::uint64_t seed) const
+  {
+    const PerturbedPredicates predicates(
+      [this](std::int32_t vertex) { return Vec3(swell_ * b_.outward(vertex)); }, seed);
+    const std::array<const MeshOperand*, 2> operands = { &a_, &b_ };
+
+    CutCurves curves = cutCurves(a_, moved, predicates,
+      triangleCrossings(a_, moved, predicates, ProgressPart(progress_, 0.0, 0.4)));
+    progress_.check();
+    progress_.report(0.5);
+    const MeshSides sides = meshSides(a_, moved, predicates, curves);
+    progress_.check();
+    progress_.report(0.7);
+    bool contradictory = sides.contradictory;
+    if (distance > 0.0)
+    {
+      placeOnEdgesOf(b_, curves);
+    }
+    std::array<CutFaces, 2> faces;
+    for (std::size_t mesh = 0; mesh < 2 && !contradictory; ++mesh)
+    {
+      faces[mesh] = cutFaces(*operands[mesh], int(mesh), keep_[mesh], curves, sides, contradictory);
+      progress_.check();
+    }
+    progress_.report(0.8);
+    MeshBooleanResult result;
+    result.usable = !contradictory;
+    if (result.usable)
+    {
+      result = assemble(operands, keep_, curves, sides, faces);
+      cleanResult(result, 4.0 * distance);
+    }
+    return result;
+  }
+
+  const std::array<Keep, 2> keep_;
+  const double swell_; // what touches merges, A - A is empty, A & A is A
+  const MeshOperand& a_;
+  const MeshOperand& b_;
+  const Progress& progress_;
+};
 
 void tell(const MeshOperand& a, const MeshOperand& b, MeshBooleanResult& result)
 {
@@ -153,7 +239,7 @@ MeshBooleanResult meshBoolean(
   }
   else
   {
-    result = cutOrRetry(operation, a, b, progress);
+    result = Cut(operation, a, b, progress).run();
   }
   tell(a, b, result);
   progress.report(1.0);

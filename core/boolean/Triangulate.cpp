@@ -19,13 +19,7 @@ namespace
 constexpr std::size_t kNone = std::size_t(-1);
 constexpr std::size_t kSmall = 12; // up to here the best ear is looked for
 constexpr int kFlipsPerEdge = 10;
-
-using Side = std::pair<std::int32_t, std::int32_t>;
-
-double squaredDistance(const PlanarPoint& a, const PlanarPoint& b)
-{
-  return (a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y);
-}
+constexpr double kTolerance = 0x1p-46;
 
 // Area over the sum of squared sides: largest for the equilateral, 0 for a flat one.
 double shapeOf(const PlanarPoint& a, const PlanarPoint& b, const PlanarPoint& c)
@@ -55,98 +49,11 @@ bool Triangulator::mayJoin(std::int32_t a, std::int32_t b) const
   return a != b && ((*points_)[std::size_t(a)].edges & (*points_)[std::size_t(b)].edges) == 0;
 }
 
-// Whether no side of the loops passes between two points.
-bool Triangulator::isVisible(
-  std::int32_t from, std::int32_t to, const std::vector<Loop>& loops) const
+// Whether a diagonal may be made: where bridges lead to holes the same one could come up twice.
+bool Triangulator::mayClip(std::int32_t a, std::int32_t c) const
 {
-  const auto blocks = [&](std::int32_t a, std::int32_t b)
-  {
-    if (a == from || b == from || a == to || b == to)
-    {
-      // A side that leaves along the way.
-      const std::int32_t far = a == from || a == to ? b : a;
-      const std::int32_t shared = far == b ? a : b;
-      if (far == from || far == to || this->turn(from, to, far) != 0)
-      {
-        return false;
-      }
-      const PlanarPoint& p = (*points_)[std::size_t(shared)];
-      const PlanarPoint& q = (*points_)[std::size_t(far)];
-      const PlanarPoint& r = (*points_)[std::size_t(shared == from ? to : from)];
-      return (q.x - p.x) * (r.x - p.x) + (q.y - p.y) * (r.y - p.y) > 0.0;
-    }
-    return this->turn(a, b, from) * this->turn(a, b, to) <= 0 &&
-      this->turn(from, to, a) * this->turn(from, to, b) <= 0;
-  };
-  for (const Loop& loop : loops)
-  {
-    for (std::size_t k = 0; k < loop.size(); ++k)
-    {
-      if (blocks(loop[k], loop[(k + 1) % loop.size()]))
-      {
-        return false;
-      }
-    }
-  }
-  return true;
-}
-
-// Joins the holes to the outer loop, the rightmost first, each by the shortest way that is free.
-bool Triangulator::bridge(const std::vector<Loop>& loops)
-{
-  polygon_ = loops.front();
-  const auto x = [&](std::int32_t p) { return (*points_)[std::size_t(p)].x; };
-  std::vector<std::pair<double, std::size_t>> order;
-  std::vector<std::size_t> rightmost(loops.size());
-  for (std::size_t hole = 1; hole < loops.size(); ++hole)
-  {
-    const Loop& loop = loops[hole];
-    const auto most = std::max_element(
-      loop.begin(), loop.end(), [&](std::int32_t a, std::int32_t b) { return x(a) < x(b); });
-    rightmost[hole] = std::size_t(most - loop.begin());
-    order.emplace_back(-x(*most), hole);
-  }
-  std::sort(order.begin(), order.end());
-  for (const auto& [minusX, hole] : order)
-  {
-    const Loop& loop = loops[hole];
-    const std::int32_t from = loop[rightmost[hole]];
-    std::vector<std::pair<double, std::size_t>> ways;
-    for (std::size_t k = 0; k < polygon_.size(); ++k)
-    {
-      ways.emplace_back(
-        squaredDistance((*points_)[std::size_t(from)], (*points_)[std::size_t(polygon_[k])]), k);
-    }
-    std::sort(ways.begin(), ways.end());
-    std::vector<Loop> walls = loops;
-    walls.push_back(polygon_);
-    const auto free = std::find_if(ways.begin(), ways.end(),
-      [&](const std::pair<double, std::size_t>& way)
-      {
-        const std::size_t k = way.second;
-        const std::size_t count = polygon_.size();
-        // At a point met twice, from the side that the hole lies on.
-        const std::int32_t at = polygon_[k];
-        const std::int32_t before = polygon_[(k + count - 1) % count];
-        const std::int32_t after = polygon_[(k + 1) % count];
-        const bool convex = this->turn(before, at, after) > 0;
-        const bool left = this->turn(before, at, from) > 0;
-        const bool right = this->turn(at, after, from) > 0;
-        return (convex ? left && right : left || right) && this->mayJoin(from, at) &&
-          this->isVisible(from, at, walls);
-      });
-    if (free == ways.end())
-    {
-      return false;
-    }
-    Loop detour{ polygon_[free->second] };
-    for (std::size_t k = 0; k <= loop.size(); ++k)
-    {
-      detour.push_back(loop[(rightmost[hole] + k) % loop.size()]);
-    }
-    polygon_.insert(polygon_.begin() + std::ptrdiff_t(free->second), detour.begin(), detour.end());
-  }
-  return true;
+  return left_ == 3 ||
+    (this->mayJoin(a, c) && (diagonals_.empty() || diagonals_.count(std::minmax(a, c)) == 0));
 }
 
 double Triangulator::shape(std::size_t tip) const
@@ -157,10 +64,8 @@ double Triangulator::shape(std::size_t tip) const
 
 bool Triangulator::isEar(std::size_t tip) const
 {
-  const std::int32_t a = polygon_[previous_[tip]];
-  const std::int32_t b = polygon_[tip];
-  const std::int32_t c = polygon_[next_[tip]];
-  if ((left_ > 3 && !this->mayJoin(a, c)) || this->turn(a, b, c) <= 0)
+  const auto [a, b, c] = this->cornersAt(tip);
+  if (!this->mayClip(a, c) || this->turn(a, b, c) <= 0)
   {
     return false;
   }
@@ -217,27 +122,89 @@ std::size_t Triangulator::chooseLarge(std::size_t from) const
   return kNone;
 }
 
+Triangle Triangulator::cornersAt(std::size_t tip) const
+{
+  return { polygon_[previous_[tip]], polygon_[tip], polygon_[next_[tip]] };
+}
+
+// How far a point lies left of the way from one to the other.
+double Triangulator::offset(std::int32_t from, std::int32_t to, std::int32_t point) const
+{
+  const PlanarPoint& p = (*points_)[std::size_t(from)];
+  const PlanarPoint& q = (*points_)[std::size_t(to)];
+  const PlanarPoint& r = (*points_)[std::size_t(point)];
+  const double length = std::sqrt(squaredDistance(p, q));
+  return length > 0.0 ? ((q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x)) / length : 0.0;
+}
+
+// What clipping a tip does to the rest, when rounding has folded the polygon.
+Triangulator::Harm Triangulator::harmOf(std::size_t tip) const
+{
+  const auto [a, b, c] = this->cornersAt(tip);
+  if (!this->mayClip(a, c))
+  {
+    return Harm::Forbidden;
+  }
+  const double tolerance = this->tolerance();
+  const double height =
+    std::min({ this->offset(a, b, c), this->offset(b, c, a), this->offset(c, a, b) });
+  if (std::abs(height) <= tolerance)
+  {
+    return Harm::Flat;
+  }
+  if (height < 0.0)
+  {
+    return Harm::Overlap;
+  }
+  for (std::size_t k = next_[next_[tip]]; k != previous_[tip]; k = next_[k])
+  {
+    const std::int32_t other = polygon_[k];
+    if (this->offset(a, b, other) > tolerance && this->offset(b, c, other) > tolerance &&
+      this->offset(c, a, other) > tolerance)
+    {
+      return Harm::Overlap;
+    }
+  }
+  return Harm::None;
+}
+
 // The polygon has no ear: rounding has folded it. The least evil one.
 std::size_t Triangulator::chooseAny() const
 {
   std::size_t best = kNone;
-  double most = -std::numeric_limits<double>::infinity();
+  std::pair<Harm, double> least = { Harm::Forbidden, 0.0 };
   std::size_t tip = at_;
   for (std::size_t k = 0; k < left_; ++k, tip = next_[tip])
   {
-    const double shape = this->shape(tip);
-    if ((left_ == 3 || this->mayJoin(polygon_[previous_[tip]], polygon_[next_[tip]])) &&
-      shape > most)
+    const std::pair<Harm, double> harm = { this->harmOf(tip), -this->shape(tip) };
+    if (harm.first != Harm::Forbidden && harm < least)
     {
-      most = shape;
+      least = harm;
       best = tip;
     }
   }
   return best;
 }
 
+// What rounding may have moved a point by.
+double Triangulator::tolerance() const
+{
+  double largest = 0.0;
+  for (const std::int32_t point : polygon_)
+  {
+    const PlanarPoint& p = (*points_)[std::size_t(point)];
+    largest = std::max({ largest, std::abs(p.x), std::abs(p.y) });
+  }
+  return kTolerance * largest;
+}
+
 bool Triangulator::clip()
 {
+  diagonals_.clear();
+  for (std::size_t k = 0; hasHoles_ && k < polygon_.size(); ++k)
+  {
+    diagonals_.insert(std::minmax(polygon_[k], polygon_[(k + 1) % polygon_.size()]));
+  }
   const std::size_t count = polygon_.size();
   next_.resize(count);
   previous_.resize(count);
@@ -260,7 +227,11 @@ bool Triangulator::clip()
     {
       return false;
     }
-    made_.push_back({ polygon_[previous_[tip]], polygon_[tip], polygon_[next_[tip]] });
+    made_.push_back(this->cornersAt(tip));
+    if (!diagonals_.empty())
+    {
+      diagonals_.insert(std::minmax(polygon_[previous_[tip]], polygon_[next_[tip]]));
+    }
     next_[previous_[tip]] = next_[tip];
     previous_[next_[tip]] = previous_[tip];
     at_ = next_[next_[tip]]; // a step on, or all ears would meet in one point
@@ -388,7 +359,8 @@ bool Triangulator::triangulate(const std::vector<PlanarPoint>& points,
 {
   points_ = &points;
   made_.clear();
-  if (loops.size() == 1)
+  hasHoles_ = loops.size() > 1;
+  if (!hasHoles_)
   {
     polygon_ = loops.front();
   }
@@ -396,7 +368,7 @@ bool Triangulator::triangulate(const std::vector<PlanarPoint>& points,
   {
     return false;
   }
-  if (!this->clip() || (loops.size() > 1 && this->hasRepeatedEdges()))
+  if (!this->clip() || (hasHoles_ && this->hasRepeatedEdges()))
   {
     return false;
   }

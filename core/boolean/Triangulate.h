@@ -3,6 +3,10 @@
 
 #include "core/mesh/TriangleMesh.h"
 
+#include <array>
+#include <optional>
+#include <set>
+#include <utility>
 #include <vector>
 
 namespace hybridtree
@@ -16,6 +20,11 @@ struct PlanarPoint
   /// a diagonal: the neighbour across the edge might choose the same.
   std::uint8_t edges;
 };
+
+inline double squaredDistance(const PlanarPoint& a, const PlanarPoint& b)
+{
+  return (a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y);
+}
 
 /// Triangulates polygons with holes by clipping ears, larger ones then toward Delaunay by flips.
 ///
@@ -35,11 +44,30 @@ public:
     std::vector<Triangle>& triangles);
 
 private:
+  using Side = std::pair<std::int32_t, std::int32_t>;
+  using Way = std::array<std::size_t, 2>;
+
+  // Of clipping a tip, the least first.
+  enum class Harm
+  {
+    None,
+    Flat,
+    Overlap,
+    Forbidden
+  };
+
   int turn(std::int32_t a, std::int32_t b, std::int32_t c) const;
   bool mayJoin(std::int32_t a, std::int32_t b) const;
   bool bridge(const std::vector<Loop>& loops);
   bool isVisible(std::int32_t from, std::int32_t to, const std::vector<Loop>& loops) const;
+  bool isOpen(std::int32_t from, std::int32_t to, const std::vector<Loop>& loops) const;
+  std::optional<Way> anyWay(const Loop& hole, const std::vector<Loop>& walls) const;
   bool clip();
+  Triangle cornersAt(std::size_t tip) const;
+  double offset(std::int32_t from, std::int32_t to, std::int32_t point) const;
+  Harm harmOf(std::size_t tip) const;
+  double tolerance() const;
+  bool mayClip(std::int32_t a, std::int32_t c) const;
   bool isEar(std::size_t tip) const;
   double shape(std::size_t tip) const;
   std::size_t chooseSmall() const;
@@ -57,6 +85,8 @@ private:
   std::size_t left_ = 0;
   std::size_t at_ = 0;
   bool proper_ = true;
+  bool hasHoles_ = false;
+  std::set<Side> diagonals_; // and sides; of polygons with holes
   std::vector<Triangle> made_;
 };
 

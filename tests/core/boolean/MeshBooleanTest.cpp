@@ -5,6 +5,7 @@
 #include "core/base/Parallel.h"
 #include "core/mesh/MeshChecks.h"
 #include "tests/core/boolean/BooleanCases.h"
+#include "tests/core/boolean/NearCases.h"
 #include "tests/support/TestMeshes.h"
 
 #include <gtest/gtest.h>
@@ -50,6 +51,81 @@ TEST(MeshBoolean, RandomPlacementsAreClosedManifoldsWhoseVolumesAddUp)
       pool[std::size_t(random.integer(0, int(pool.size()) - 1))], randomPlacement(random, 1.5));
     EXPECT_EQ(faultsOf(allOperations(a, b), a, b), "") << "round " << round;
   }
+}
+
+TEST(MeshBoolean, NearAndTouchingPlacementsAreClosedManifoldsWhoseVolumesAddUp)
+{
+  Random random(24);
+  const std::vector<TriangleMesh> pool = shapes();
+  for (const NearCase& near : nearCases())
+  {
+    for (int round = 0; round < 12; ++round)
+    {
+      const NearPair pair =
+        near.make(random, pool[std::size_t(random.integer(0, int(pool.size()) - 1))],
+          pool[std::size_t(random.integer(0, int(pool.size()) - 1))]);
+      EXPECT_EQ(faultsOf(allOperations(pair.a, pair.b), pair.a, pair.b), "")
+        << near.name << ", round " << round;
+    }
+  }
+}
+
+// What rounding has folded or made cross itself is cut again: operands that share faces with what
+// they are cut from.
+TEST(MeshBoolean, ResultsAreOperands)
+{
+  Random random(25);
+  const std::vector<TriangleMesh> pool = shapes();
+  for (const NearCase& near : nearCases())
+  {
+    for (int round = 0; round < 4; ++round)
+    {
+      const auto [a, b] =
+        near.make(random, pool[std::size_t(random.integer(0, int(pool.size()) - 1))],
+          pool[std::size_t(random.integer(0, int(pool.size()) - 1))]);
+      const BooleanResults first = allOperations(a, b);
+      const double both = signedVolume(first.intersect.mesh);
+      const double tolerance = 1e-9 * (signedVolume(a) + signedVolume(b));
+      const auto check = [&](const char* name, const TriangleMesh& left, const TriangleMesh& right,
+                           MeshOperation operation, double expected)
+      {
+        const MeshBooleanResult result = meshBoolean(operation, operandOf(left), operandOf(right));
+        const std::string where = near.name + ", round " + std::to_string(round) + ", " + name;
+        EXPECT_TRUE(result.usable) << where;
+        EXPECT_TRUE(checkMesh(result.mesh).closedManifold()) << where;
+        EXPECT_NEAR(signedVolume(result.mesh), expected, tolerance) << where;
+      };
+      check("(A - B) + B", first.subtract.mesh, b, MeshOperation::Union,
+        signedVolume(first.unite.mesh));
+      check("(A + B) - B", first.unite.mesh, b, MeshOperation::Difference, signedVolume(a) - both);
+      check("(A + B) & A", first.unite.mesh, a, MeshOperation::Intersection, signedVolume(a));
+      check("(A - B) & B", first.subtract.mesh, b, MeshOperation::Intersection, 0.0);
+    }
+  }
+}
+
+// A corner of A pokes through a face of B and ends in the plane of another: the hole that it cuts
+// touches the border of its triangle. It was filled, and a lid laid over it.
+TEST(MeshBoolean, HoleThatTouchesTheBorderOfItsTriangleIsCutOut)
+{
+  const double third = 1.0 / 3.0;
+  TriangleMesh wedge;
+  wedge.points = { Vec3(-third, -third, -third), Vec3(third, -third, -third),
+    Vec3(-third, third, -third), Vec3(-third, -third, third) };
+  wedge.triangles = { { 0, 2, 1 }, { 0, 1, 3 }, { 0, 3, 2 }, { 1, 2, 3 } };
+  const TriangleMesh cube = box(Vec3(-third - 0x1p-53, 0.32, -third), Vec3(1, 1, 1));
+  const BooleanResults results = allOperations(wedge, cube);
+  EXPECT_EQ(faultsOf(results, wedge, cube), "");
+  double area = 0.0; // of the cube's face around the hole
+  for (std::size_t t = 0; t < results.unite.mesh.triangles.size(); ++t)
+  {
+    const Vec3 normal = areaNormal(results.unite.mesh, t);
+    area += results.unite.sourceOperand[t] == 1 && -normal.y() > 0.9 * normal.norm()
+      ? 0.5 * normal.norm()
+      : 0.0;
+  }
+  const double leg = third - 0.32;
+  EXPECT_NEAR(area, (1.0 + third) * (1.0 + third) - 0.5 * leg * leg, 1e-12);
 }
 
 TEST(MeshBoolean, SmallShapeInsideOfOneTriangleMakesAHole)
