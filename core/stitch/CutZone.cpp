@@ -91,7 +91,7 @@ CutZone::Index CutZone::placeOf(Index triangle) const
 
 bool CutZone::isLarge(const Vec3& a, const Vec3& b) const
 {
-  return (b - a).squaredNorm() > kLarge * cellSize_ * kLarge * cellSize_;
+  return isLarge((b - a).norm(), cellSize_);
 }
 
 void CutZone::add(Index t)

@@ -13,7 +13,7 @@ namespace hybridtree
 {
 
 /// Large triangles at a cut, which are to be triangulated anew together: at first the cut ones with
-/// a side of more than three cells.
+/// a side of more than two cells.
 class CutZone
 {
 public:
@@ -46,7 +46,7 @@ public:
   void findFacets();
 
 private:
-  static constexpr double kLarge = 3.0; // cells
+  static constexpr double kLarge = 2.0; // cells
 
   const Vec3& corner(Index t, int k) const { return mesh_.points[mesh_.triangles[t][k % 3]]; }
   bool isLarge(const Vec3& a, const Vec3& b) const;

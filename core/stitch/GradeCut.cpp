@@ -17,7 +17,6 @@ namespace
 using Index = std::int32_t;
 
 constexpr double kFew = 0.01;      // of the triangles: slivers that are no reason to grow
-constexpr int kRounds = 5;         // of growing the zone
 constexpr double kSliver = 0.9848; // cosine of 10 degrees
 constexpr double kRounding = 1e-9; // of weights
 constexpr double kLeast = 0.3;     // cells: shorter sides are left to PatchShape.h
@@ -36,40 +35,36 @@ public:
 
   void run()
   {
-    double least = 1.0;
-    std::size_t best = 0; // triangles of the zone
-    std::size_t now = zone_.triangles().size();
-    for (int round = 0; round < kRounds; ++round)
+    if (this->refineBest())
     {
-      now = zone_.triangles().size();
-      const double slivers = this->refine() ? this->shareOfSlivers() : least;
-      if (slivers < least)
-      {
-        least = slivers;
-        best = now;
-      }
-      if (least < kFew || !zone_.growBeyond(this->sidesOfSlivers()))
-      {
-        break;
-      }
+      this->takePieces();
+      this->takeTriangles();
     }
-    if (best == 0)
-    {
-      return;
-    }
-    zone_.shrink(best);
-    if (best != now)
-    {
-      this->refine();
-    }
-    this->takePieces();
-    this->takeTriangles();
   }
 
 private:
   const Vec3& point(Index v) const
   {
     return v < points_ ? mesh_.points[v] : cut_.vertices[v - points_].point;
+  }
+
+  /// Once more with what lies beyond the zone, if there are slivers left at its border and that
+  /// helps; triangles there may be needles in themselves. \return whether it is better now.
+  bool refineBest()
+  {
+    const bool better = this->refine();
+    const double slivers = this->shareOfSlivers();
+    const std::size_t count = zone_.triangles().size();
+    if (slivers <= kFew || !zone_.growBeyond(this->sidesOfSlivers()))
+    {
+      return better;
+    }
+    if (this->refine() && (!better || this->shareOfSlivers() < slivers))
+    {
+      return true;
+    }
+    zone_.shrink(count);
+    return better && this->refine();
   }
 
   bool refine()

@@ -14,7 +14,7 @@ namespace hybridtree
 /// The surface stays the same, and so does every triangle outside of the zone. Triangles of the
 /// zone that were not cut are among cutTriangles and gone then. Pieces over several triangles of
 /// one plane are of the one in which their middle lies, and not part of it. Nothing changes where
-/// no cut triangle is larger than three cells.
+/// no cut triangle is larger than two cells.
 void gradeCut(const TriangleMesh& mesh, const KeptMesh& known, double cellSize, CutMesh& cut);
 
 } // namespace hybridtree
