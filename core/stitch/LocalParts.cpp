@@ -138,6 +138,11 @@ LocalParts::LocalParts(
 {
   for (const KeptPart& part : parts)
   {
+    if (part.isLeaf)
+    {
+      parts_.push_back({ part, {}, {} });
+      continue;
+    }
     const std::shared_ptr<const KeptMesh> known = KeptMesh::of(part.mesh);
     const Indices near = trianglesNear(*part.mesh, *known, cells, grid);
     Part local{ part, trianglesAt(*part.mesh, known->pointTriangles(), cornersOf(*part.mesh, near)),
@@ -151,6 +156,10 @@ bool LocalParts::areAllOf(const IslandCut& cut, const CellGrid& grid) const
 {
   for (std::size_t p = 0; p < parts_.size(); ++p)
   {
+    if (parts_[p].part.isLeaf)
+    {
+      continue;
+    }
     const TriangleMesh& mesh = *parts_[p].part.mesh;
     for (const std::int32_t t : cut.cuts[p].cutTriangles)
     {
@@ -178,6 +187,10 @@ void LocalParts::describe(Contents& contents) const
     const TriangleMesh& mesh = *local.part.mesh;
     contents.add(local.part.firstLeaf);
     contents.add(std::int32_t(local.part.isLeaf));
+    if (local.part.isLeaf)
+    {
+      continue;
+    }
     contents.add(std::uint64_t(local.triangles.size()));
     Indices places(local.points.empty() ? 0 : std::size_t(local.points.back()) + 1);
     for (std::size_t k = 0; k < local.points.size(); ++k)
@@ -211,14 +224,18 @@ Island LocalParts::toPlaces(const Island& island) const
   Island result = island;
   for (std::size_t p = 0; p < parts_.size(); ++p)
   {
-    for (std::int32_t& t : result.gone[p])
+    if (!parts_[p].part.isLeaf)
     {
-      t = placeOf(parts_[p].triangles, t);
+      for (std::int32_t& t : result.gone[p])
+      {
+        t = placeOf(parts_[p].triangles, t);
+      }
     }
   }
   for (PartPoint& at : result.rim)
   {
-    at.point = placeOf(parts_[at.part].points, at.point);
+    const Part& part = parts_[at.part];
+    at.point = part.part.isLeaf ? at.point : placeOf(part.points, at.point);
   }
   return result;
 }
@@ -228,14 +245,18 @@ Island LocalParts::fromPlaces(const Island& island) const
   Island result = island;
   for (std::size_t p = 0; p < parts_.size(); ++p)
   {
-    for (std::int32_t& t : result.gone[p])
+    if (!parts_[p].part.isLeaf)
     {
-      t = parts_[p].triangles[t];
+      for (std::int32_t& t : result.gone[p])
+      {
+        t = parts_[p].triangles[t];
+      }
     }
   }
   for (PartPoint& at : result.rim)
   {
-    at.point = parts_[at.part].points[at.point];
+    const Part& part = parts_[at.part];
+    at.point = part.part.isLeaf ? at.point : part.points[at.point];
   }
   return result;
 }

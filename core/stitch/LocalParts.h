@@ -22,7 +22,8 @@ public:
   /// beyond them are triangulated anew with them (CutZone.h) may take in others, far away.
   bool areAllOf(const IslandCut& cut, const CellGrid& grid) const;
 
-  /// All that there is of them here.
+  /// All that there is of them here, but for leaves: their meshes stay the same objects when others
+  /// are made anew, and may be large, so those who compare contents compare these objects, too.
   void describe(Contents& contents) const;
 
   /// Numbers in the parts replaced by places among what is here. \pre the island was made here.
@@ -34,7 +35,7 @@ private:
   struct Part
   {
     KeptPart part;
-    std::vector<std::int32_t> triangles; ///< rising, as the points
+    std::vector<std::int32_t> triangles; ///< rising, as the points; none of a leaf, all stay
     std::vector<std::int32_t> points;
   };
 

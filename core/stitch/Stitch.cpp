@@ -73,16 +73,16 @@ struct LocalIslandKey
 {
   CellGrid grid;
   std::vector<CellSet::Brick> cells;
-  std::vector<Dependency> field;
+  std::vector<Dependency> known; ///< of the field, then the leaves among the parts
   Contents parts;
   std::uint64_t sum = 0; ///< hash of it all
 
   bool operator==(const LocalIslandKey& other) const
   {
-    return sum == other.sum && grid == other.grid && cells == other.cells && field == other.field &&
+    return sum == other.sum && grid == other.grid && cells == other.cells && known == other.known &&
       parts == other.parts;
   }
-  bool isExpired() const { return anyExpired(field); }
+  bool isExpired() const { return anyExpired(known); }
   std::uint64_t hash() const { return sum; }
 };
 
@@ -241,6 +241,13 @@ private:
     work.local.emplace(work.parts, work.cells, options_.grid);
     LocalIslandKey& key = work.localKey;
     key = { options_.grid, work.key.cells, work.near.dependencies, {}, 0 };
+    for (const KeptPart& part : work.parts)
+    {
+      if (part.isLeaf)
+      {
+        key.known.emplace_back(part.mesh, 0.0, part.firstLeaf);
+      }
+    }
     work.local->describe(key.parts);
     HashSum sum;
     sum.add(key.parts.hash());
@@ -248,7 +255,7 @@ private:
     {
       sum.add(Index3Hash()(brick.index));
     }
-    for (const Dependency& dependency : key.field)
+    for (const Dependency& dependency : key.known)
     {
       dependency.addTo(sum);
     }
