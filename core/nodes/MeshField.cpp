@@ -78,9 +78,10 @@ private:
 class MeshField::Part final : public FieldSource
 {
 public:
-  /// \param box in the space of the mesh. \param reach largest distance that matters there.
-  Part(const MeshField& whole, const Box3& box, double reach)
-    : whole_(whole), box_(box), reach_(reach)
+  /// \param box and the same in the space of the mesh. \param range of the field there.
+  /// \param reach largest distance that matters there.
+  Part(const MeshField& whole, const Box3& box, const Box3& local, Interval range, double reach)
+    : whole_(whole), box_(box), local_(local), range_(range), reach_(reach)
   {
   }
   void field(PointBatch points, double* value) const override
@@ -91,18 +92,24 @@ public:
   {
     whole_.evaluate(points, value, gradient, &this->part());
   }
-  Interval range(const Box3& box) const override { return whole_.range(box); }
+  Interval range(const Box3& box) const override
+  {
+    const bool same = box.min() == box_.min() && box.max() == box_.max();
+    return same ? range_ : whole_.range(box);
+  }
   FieldSourcePtr restrictedTo(const Box3& box) const override { return whole_.restrictedTo(box); }
 
 private:
   const MeshPart& part() const
   {
-    std::call_once(found_, [this] { part_ = whole_.distance().within(box_, reach_); });
+    std::call_once(found_, [this] { part_ = whole_.distance().within(local_, reach_); });
     return part_;
   }
 
   const MeshField& whole_;
   const Box3 box_;
+  const Box3 local_; ///< the same in the space of the mesh
+  const Interval range_;
   const double reach_;
   mutable std::once_flag found_;
   mutable MeshPart part_;
@@ -204,7 +211,11 @@ Interval MeshField::range(const Box3& box) const
   {
     return { 0.0, 0.0 };
   }
-  const Interval signedRange = this->distance().signedRange(local);
+  return this->fieldRange(this->distance().signedRange(local));
+}
+
+Interval MeshField::fieldRange(const Interval& signedRange) const
+{
   return potential_.range(
     { std::max(0.0, signedRange.min + offset_), std::max(0.0, signedRange.max + offset_) });
 }
@@ -227,8 +238,8 @@ FieldSourcePtr MeshField::restrictedTo(const Box3& box) const
     return std::make_shared<DeepInside>(potential_.maximumField());
   }
   const double farthest = std::max(-signedRange.min, signedRange.max);
-  return std::make_shared<Part>(
-    *this, local, std::min(farthest, std::max(influenceRadius_, offset_)));
+  return std::make_shared<Part>(*this, box, local, this->fieldRange(signedRange),
+    std::min(farthest, std::max(influenceRadius_, offset_)));
 }
 
 void MeshField::membership(PointBatch points, std::int8_t* side) const

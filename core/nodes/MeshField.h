@@ -73,6 +73,7 @@ private:
   void evaluateBatch(
     PointBatch points, double* value, VectorBatch gradient, const MeshPart* part) const;
   Box3 toMeshSpace(const Box3& box) const;
+  Interval fieldRange(const Interval& signedRange) const;
 
   MeshPtr mesh_;
   double influenceRadius_;

@@ -99,6 +99,10 @@ void Potential::evaluateWithSlope(
 
 Interval Potential::range(Interval distance) const
 {
+  if (distance.min >= influenceRadius_)
+  {
+    return {};
+  }
   const double ends[2] = { distance.min, distance.max };
   double field[2];
   this->evaluate(ends, field, 2);

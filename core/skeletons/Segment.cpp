@@ -5,6 +5,9 @@
 #include "core/skeletons/OffsetMesh.h"
 #include "core/skeletons/Validate.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace hybridtree
 {
 SegmentSkeleton::SegmentSkeleton(const Vec3& a, const Vec3& b)
@@ -12,9 +15,28 @@ SegmentSkeleton::SegmentSkeleton(const Vec3& a, const Vec3& b)
 {
 }
 
+// As convexDistanceRange(), which is asked for every block of cells near a blend: without batches.
 Interval SegmentSkeleton::distanceRange(const Box3& box) const
 {
-  return convexDistanceRange(*this, box);
+  const Vec3 along = this->b() - this->a();
+  const double squaredLength = along.squaredNorm();
+  const auto fromNearest = [&](const Vec3& p)
+  {
+    const Vec3 way = p - this->a();
+    const double share = squaredLength > 0.0 ? way.dot(along) / squaredLength : 0.0;
+    return Vec3(way - std::clamp(share, 0.0, 1.0) * along);
+  };
+  double most = 0.0;
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const Vec3 p = box.corner(static_cast<Box3::CornerType>(corner));
+    most = std::max(most, fromNearest(p).squaredNorm());
+  }
+  const Vec3 atCenter = fromNearest(box.center());
+  const double distance = atCenter.norm();
+  const double fall =
+    distance > 0.0 ? 0.5 * (atCenter / distance).cwiseAbs().dot(box.sizes()) : 0.0;
+  return widenedByRounding({ distance - fall, std::sqrt(most) }, box, this->bounds());
 }
 
 Box3 SegmentSkeleton::bounds() const
