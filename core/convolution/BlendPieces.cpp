@@ -232,13 +232,23 @@ void cut(const GroupedElements& elements, const GroupedElement<3>& triangle,
 BlendPieces cutAll(const GroupedElements& elements, const GraphPlaces& places)
 {
   BlendPieces pieces;
+  DistanceCount count;
+  const auto cutNext = [&](const auto& element, const std::vector<BlendPieces::Place>& made)
+  {
+    const std::size_t before = made.size();
+    cut(elements, element, places, pieces);
+    for (std::size_t k = before; k < made.size(); ++k)
+    {
+      count.add(made[k].distances.size());
+    }
+  };
   for (const GroupedElement<2>& segment : elements.segments)
   {
-    cut(elements, segment, places, pieces);
+    cutNext(segment, pieces.segmentPlaces);
   }
   for (const GroupedElement<3>& triangle : elements.triangles)
   {
-    cut(elements, triangle, places, pieces);
+    cutNext(triangle, pieces.trianglePlaces);
   }
   pieces.neighbours = places.neighbours();
   return pieces;

@@ -42,7 +42,7 @@ struct BlendPieces
   std::vector<std::vector<Meeting>> meetings;
 };
 
-/// \pre BlendingKind::Neighbours.
+/// \pre BlendingKind::Neighbours. \throws TooLarge
 BlendPieces makeBlendPieces(const GroupedElements& elements, const BlendingControl& control);
 
 } // namespace hybridtree

@@ -136,8 +136,7 @@ private:
   }
 
   // Of the pieces of a group, per number the distance that is farthest.
-  void findFarthest(
-    const PiecesNear& pieces, std::size_t number, std::vector<double>& distances)
+  void findFarthest(const PiecesNear& pieces, std::size_t number, std::vector<double>& distances)
   {
     const auto count = static_cast<std::int32_t>(pieces.end(number) - pieces.begin(number));
     distances.assign(pieces.groupCount(), 0.0);
@@ -209,7 +208,7 @@ private:
   ScratchArray own_;            // per unit
   std::vector<char> isReached_; // per unit: any of the points
   std::vector<std::size_t> reached_;
-  std::vector<char> mayBeFar_;                   // per unit: from another that reaches any
+  std::vector<char> mayBeFar_;           // per unit: from another that reaches any
   std::vector<std::int32_t> nearPieces_; // per number, of a group: how many are near it
 };
 

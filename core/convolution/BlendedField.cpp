@@ -150,6 +150,17 @@ BlendedField::BlendedField(
   }
 }
 
+double BlendedField::meanNeighbours() const
+{
+  std::size_t count = 0;
+  for (const std::vector<std::int32_t>& others : places_.neighbours)
+  {
+    count += others.size();
+  }
+  return static_cast<double>(count) /
+    static_cast<double>(std::max<std::size_t>(1, places_.neighbours.size()));
+}
+
 ElementGroups BlendedField::elementGroups() const
 {
   return { whole_, segmentGroups_, triangleGroups_, groupCount_ };

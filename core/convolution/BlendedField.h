@@ -30,7 +30,7 @@ namespace hybridtree
 class BlendedField
 {
 public:
-  /// \pre validate() of both.
+  /// \pre validate() of both. \throws TooLarge
   BlendedField(const ConvolutionKernel& kernel, const BlendingControl& control,
     const GroupedElements& elements);
 
@@ -39,6 +39,9 @@ public:
   const ConvolutionField& sum() const { return whole_; }
 
   Box3 influenceBounds() const { return whole_.influenceBounds(); }
+
+  /// Of a group, on average: how many others its sum takes in; 0 unless BlendingKind::Neighbours.
+  double meanNeighbours() const;
 
   /// What reaches the box. Overwrites `selection`.
   void select(const Box3& box, BlendSelection& selection) const;

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/convolution/GraphDistances.h"
 
+#include "core/base/Error.h"
+
 #include <limits>
 #include <queue>
+#include <string>
 
 namespace hybridtree
 {
@@ -112,7 +115,21 @@ private:
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
 };
 
+constexpr std::size_t kMostDistances = 60000000; // about a gigabyte
+
 } // namespace
+
+void DistanceCount::add(std::size_t distances)
+{
+  count_ += distances;
+  if (count_ > kMostDistances)
+  {
+    throw TooLarge("Blending = neighbours would have to keep more than " +
+      std::to_string(kMostDistances) +
+      " distances along the skeleton: its elements are many and small beside the radius. Choose "
+      "Blending = all, a lower Level, a smaller radius or BlendDistance, or a coarser skeleton.");
+  }
+}
 
 std::vector<std::vector<GroupDistance>> groupDistances(
   const GroupedElements& elements, double limit)
@@ -123,10 +140,13 @@ std::vector<std::vector<GroupDistance>> groupDistances(
   collectPoints(elements.triangles, sources);
   std::vector<std::vector<GroupDistance>> distances(elements.points.size());
   Search search(ways);
+  DistanceCount count;
   for (std::size_t group = 0; group < sources.size(); ++group)
   {
     search.run(sources[group], limit,
-      [&](std::size_t point, double distance) {
+      [&](std::size_t point, double distance)
+      {
+        count.add(1);
         distances[point].push_back({ static_cast<std::int32_t>(group), distance });
       });
   }

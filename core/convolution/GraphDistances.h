@@ -14,8 +14,19 @@ struct GroupDistance
   double distance;
 };
 
+/// Counts distances that are kept, so that a skeleton of too many is refused before memory ends.
+class DistanceCount
+{
+public:
+  /// \throws TooLarge
+  void add(std::size_t distances);
+
+private:
+  std::size_t count_ = 0;
+};
+
 /// Per point, ascending by group: every group within `limit`, and those that an edge from a point
-/// within the limit leads to.
+/// within the limit leads to. \throws TooLarge
 std::vector<std::vector<GroupDistance>> groupDistances(
   const GroupedElements& elements, double limit);
 

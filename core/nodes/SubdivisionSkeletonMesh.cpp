@@ -174,6 +174,18 @@ NodePtr withoutMap(const SubdivisionSkeleton& leaf)
   return std::make_shared<SubdivisionSkeleton>(leaf.shape(), Affine3::Identity());
 }
 
+/// What to do where blending control takes long; empty where it does not.
+std::string slownessWarning(const SubdivisionSkeleton& leaf)
+{
+  constexpr double kMany = 100.0;
+  const double count = leaf.convolution().meanNeighbours();
+  return count <= kMany ? std::string()
+                        : "An element of this skeleton has " + std::to_string(std::int64_t(count)) +
+      " others near it. Blending = neighbours compares them all, and that is slow: Blending = all, "
+      "a smaller radius or BlendDistance, or a coarser skeleton takes less, and Preview shows the "
+      "pieces sooner.";
+}
+
 /// The mesh made in the skeleton's own space, mapped and mended.
 TriangleMesh mappedMesh(const SubdivisionSkeleton& leaf, double edgeLength, std::string& warning,
   const Progress& progress)
@@ -214,6 +226,10 @@ TriangleMesh subdivisionSkeletonMesh(const SubdivisionSkeleton& leaf, double edg
   const SkeletonLocalField local(leaf);
   std::optional<StitchedMesh> made = skeletonMesh(
     fieldOf(leaf, elements, local), options, &sharedCache(), ProgressPart(progress, 0.0, 0.8));
+  if (const std::string slow = slownessWarning(leaf); !slow.empty())
+  {
+    warning = slow;
+  }
   if (made && made->mesh.triangles.empty())
   {
     warning = "The skeleton has no surface: it is too short beside its radius, or too thin for the "
@@ -222,7 +238,8 @@ TriangleMesh subdivisionSkeletonMesh(const SubdivisionSkeleton& leaf, double edg
   if (!made)
   {
     warning = "The meshes of the skeleton's pieces could not be joined; all of it was polygonized. "
-              "A shorter edge length may help.";
+              "A shorter edge length may help. " +
+      slownessWarning(leaf);
     return latticeMesh(leaf, edgeLength, ProgressPart(progress, 0.8, 1.0));
   }
   return std::move(made->mesh);

@@ -106,7 +106,7 @@ std::vector<PieceMeshPtr> pieceMeshes(const SkeletonField& skeleton,
   const SkeletonPieces pieces = findPieces(skeleton.coarse, SkeletonTopology(skeleton.coarse));
   const std::size_t curves = pieces.curves.size();
   const PieceKeys keys(skeleton, options);
-  const PlacedField field{ skeleton.field, skeleton.elements };
+  const PlacedField field{ skeleton.field, skeleton.elements, progress };
   const bool isKept = cache && skeleton.local;
   std::vector<PieceMeshPtr> result(pieces.size());
   parallelFor(pieces.size(), 1,

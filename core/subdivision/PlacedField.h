@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "core/base/Progress.h"
 #include "core/polygonize/FieldSource.h"
 
 #include <cstdint>
@@ -28,9 +29,11 @@ struct PlacedField
 {
   const FieldSource& whole;
   const ElementFields* elements; ///< null: the whole everywhere
+  const Progress& progress;      ///< asked between batches whether to go on
 
-  PlacedField(const FieldSource& field, const ElementFields* ofElements = nullptr)
-    : whole(field), elements(ofElements)
+  PlacedField(const FieldSource& field, const ElementFields* ofElements = nullptr,
+    const Progress& whileAsking = Progress::none())
+    : whole(field), elements(ofElements), progress(whileAsking)
   {
   }
 

@@ -138,6 +138,7 @@ void forBatches(const PlacedField& field, const std::vector<Thing>& things, cons
                           [&](std::size_t k) { return things[k].element != element; }) -
         order.begin());
     }
+    field.progress.check();
     body(order.data() + begin, end - begin);
   }
 }

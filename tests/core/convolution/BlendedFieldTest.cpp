@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "core/base/Error.h"
+#include "core/convolution/GraphDistances.h"
 #include "core/nodes/SubdivisionSkeleton.h"
+#include "core/nodes/SubdivisionSkeletonMesh.h"
 
 #include "tests/support/Random.h"
 
@@ -183,6 +186,47 @@ TEST(BlendedField, IsSmoothAlongBendsBranchesAndAttachments)
   fan.triangles = { { 0, 1, 2 }, { 1, 4, 2 } };
   fan.segments = { { 0, 3 } };
   expectSmooth(fan, { Vec3(-3, 0, 1.0), Vec3(0, 0, 0.5), Vec3(3, 0, 0.5), Vec3(4.5, 0, 2.2) }, 1);
+}
+
+// Before memory ends.
+TEST(BlendedField, TooManyDistancesAreRefused)
+{
+  DistanceCount count;
+  EXPECT_NO_THROW(count.add(1000000));
+  EXPECT_THROW(count.add(1000000000), TooLarge);
+}
+
+// Not only between pieces, of which there is one here.
+TEST(BlendedField, MeshesOfLargePiecesAreCancelledSoon)
+{
+  class Impatient : public Progress
+  {
+  public:
+    bool cancelled() const override { return ++asked > 20; }
+    mutable int asked = 0;
+  };
+  SkeletonGraph sheet;
+  constexpr int kSide = 20;
+  for (int j = 0; j <= kSide; ++j)
+  {
+    for (int i = 0; i <= kSide; ++i)
+    {
+      sheet.points.emplace_back(i, j, 0.0);
+      sheet.radii.push_back(0.4);
+      if (i < kSide && j < kSide)
+      {
+        const int at = j * (kSide + 1) + i;
+        sheet.triangles.push_back({ at, at + 1, at + kSide + 2 });
+        sheet.triangles.push_back({ at, at + kSide + 2, at + kSide + 1 });
+      }
+    }
+  }
+  const NodePtr node = skeleton(sheet, BlendingKind::Neighbours);
+  const Impatient progress;
+  EXPECT_THROW(
+    subdivisionSkeletonPreview(dynamic_cast<const SubdivisionSkeleton&>(*node), progress),
+    Cancelled);
+  EXPECT_LT(progress.asked, 30);
 }
 
 } // namespace
