@@ -25,7 +25,7 @@ public:
   SkeletonElementFields(const SubdivisionSkeleton& leaf, Sums sums);
   ~SkeletonElementFields() override;
 
-  int kind() const override { return haveOwnSums_ ? 1 : 0; }
+  bool areOwnSums() const override { return haveOwnSums_; }
   void evaluate(std::int32_t element, PointBatch points, double* value,
     const VectorBatch* gradient) const override;
 

@@ -125,13 +125,14 @@ RecentStore<CellsKey, PieceCells>& store()
 } // namespace
 
 PieceCells findPieceCells(
-  const PieceMesh& piece, const FieldSource& field, double tolerance, const CellGrid& grid)
+  const PieceMesh& piece, const PlacedField& field, double tolerance, const CellGrid& grid)
 {
-  std::vector<Vec3> centers;
+  std::vector<PlacedPoint> centers;
   centers.reserve(piece.triangles.size());
   for (const auto& [a, b, c] : piece.triangles)
   {
-    centers.push_back((piece.points[a] + piece.points[b] + piece.points[c]) / 3.0);
+    centers.push_back(
+      { (piece.points[a] + piece.points[b] + piece.points[c]) / 3.0, piece.elements[a] });
   }
   const std::vector<double> values = fieldAt(field, centers);
   const auto baseOf = [&](std::size_t t)
@@ -150,7 +151,7 @@ PieceCells findPieceCells(
     box.extend(piece.points[c]);
     const Vec3 base = baseOf(t);
     // Neighbours around a limb share their base; beyond its thickness begins another part.
-    const double apart = 2.0 * (centers[t] - base).norm() + 2.0 * grid.cellSize;
+    const double apart = 2.0 * (centers[t].at - base).norm() + 2.0 * grid.cellSize;
     visitCells(box, grid,
       [&](const Index3& cell)
       {
@@ -165,7 +166,7 @@ PieceCells findPieceCells(
 }
 
 std::shared_ptr<const PieceCells> pieceCells(const std::shared_ptr<const PieceMesh>& piece,
-  const FieldSource& field, double tolerance, const CellGrid& grid)
+  const PlacedField& field, double tolerance, const CellGrid& grid)
 {
   const CellsKey key{ Dependency(piece, 0.0, 0), grid, tolerance };
   if (auto known = store().find(key))

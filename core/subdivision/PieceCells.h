@@ -20,11 +20,11 @@ struct PieceCells
 
 /// \param tolerance of the field at the centers of triangles.
 PieceCells findPieceCells(
-  const PieceMesh& piece, const FieldSource& field, double tolerance, const CellGrid& grid);
+  const PieceMesh& piece, const PlacedField& field, double tolerance, const CellGrid& grid);
 
 /// The same, remembered as long as anyone holds the mesh. \pre the field near the mesh is the one
 /// that it was made in, and has not changed since.
 std::shared_ptr<const PieceCells> pieceCells(const std::shared_ptr<const PieceMesh>& piece,
-  const FieldSource& field, double tolerance, const CellGrid& grid);
+  const PlacedField& field, double tolerance, const CellGrid& grid);
 
 } // namespace hybridtree

@@ -63,7 +63,7 @@ private:
     const std::vector<std::array<std::int32_t, N>>& elements, int parts) const
   {
     PieceKey key;
-    key.own.add(std::int32_t(skeleton_.elements ? skeleton_.elements->kind() : -1));
+    key.own.add(std::int32_t(skeleton_.elements ? 1 + int(skeleton_.elements->areOwnSums()) : 0));
     key.own.add(options_.refinement);
     key.own.add(options_.longestEdge);
     key.own.add(std::int32_t(options_.findSources));

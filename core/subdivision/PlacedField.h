@@ -16,8 +16,8 @@ class ElementFields
 public:
   virtual ~ElementFields() = default;
 
-  /// Tells fields from others around the same skeleton.
-  virtual int kind() const = 0;
+  /// Whether they are less than the whole field: sums of single elements and their neighbours.
+  virtual bool areOwnSums() const = 0;
 
   /// Overwrites `value`, and `gradient` unless null.
   virtual void evaluate(

@@ -119,13 +119,15 @@ CellSet cellsWherePiecesMeet(const std::vector<PieceMeshPtr>& pieces, const Skel
   double refinement, const CellGrid& grid)
 {
   const FieldSource& field = skeleton.field;
+  const bool isWhole = skeleton.elements && !skeleton.elements->areOwnSums();
+  const PlacedField placed(field, isWhole ? skeleton.elements : nullptr);
   std::vector<std::shared_ptr<const PieceCells>> found(pieces.size());
   parallelFor(pieces.size(), 1,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t k = begin; k < end; ++k)
       {
-        found[k] = pieceCells(pieces[k], field, 2.0 * refinement * kThreshold, grid);
+        found[k] = pieceCells(pieces[k], placed, 2.0 * refinement * kThreshold, grid);
       }
     });
   SharedCells cells;
