@@ -198,6 +198,49 @@ double Triangulator::tolerance() const
   return kTolerance * largest;
 }
 
+void Triangulator::cut(std::size_t tip)
+{
+  made_.push_back(this->cornersAt(tip));
+  if (!diagonals_.empty())
+  {
+    diagonals_.insert(std::minmax(polygon_[previous_[tip]], polygon_[next_[tip]]));
+  }
+  next_[previous_[tip]] = next_[tip];
+  previous_[next_[tip]] = previous_[tip];
+}
+
+// Whether the polygon goes out and back to a tip, or stays where it is.
+bool Triangulator::isSpike(std::size_t tip, double tolerance) const
+{
+  const auto [a, b, c] = this->cornersAt(tip);
+  const PlanarPoint& p = (*points_)[std::size_t(a)];
+  const PlanarPoint& q = (*points_)[std::size_t(b)];
+  const PlanarPoint& r = (*points_)[std::size_t(c)];
+  const double least = std::min(squaredDistance(p, q), squaredDistance(q, r));
+  const bool isFlat =
+    std::min(std::abs(this->offset(b, a, c)), std::abs(this->offset(b, c, a))) <= tolerance;
+  const bool isBack = (p.x - q.x) * (r.x - q.x) + (p.y - q.y) * (r.y - q.y) > 0.0;
+  return (least <= tolerance * tolerance || (isFlat && isBack)) && this->mayClip(a, c);
+}
+
+// An ear over a spike would cover what is beside it twice.
+void Triangulator::clipSpikes()
+{
+  const double tolerance = this->tolerance();
+  std::size_t tip = at_;
+  for (std::size_t unseen = left_; unseen > 0 && left_ > 3; --unseen)
+  {
+    if (this->isSpike(tip, tolerance))
+    {
+      this->cut(tip);
+      --left_;
+      unseen = left_ + 1;
+    }
+    tip = next_[tip];
+    at_ = tip;
+  }
+}
+
 bool Triangulator::clip()
 {
   diagonals_.clear();
@@ -215,7 +258,9 @@ bool Triangulator::clip()
   }
   at_ = 0;
   proper_ = true;
-  for (left_ = count; left_ >= 3; --left_)
+  left_ = count;
+  this->clipSpikes();
+  for (; left_ >= 3; --left_)
   {
     std::size_t tip = left_ <= kSmall ? this->chooseSmall() : this->chooseLarge(at_);
     if (tip == kNone)
@@ -227,13 +272,7 @@ bool Triangulator::clip()
     {
       return false;
     }
-    made_.push_back(this->cornersAt(tip));
-    if (!diagonals_.empty())
-    {
-      diagonals_.insert(std::minmax(polygon_[previous_[tip]], polygon_[next_[tip]]));
-    }
-    next_[previous_[tip]] = next_[tip];
-    previous_[next_[tip]] = previous_[tip];
+    this->cut(tip);
     at_ = next_[next_[tip]]; // a step on, or all ears would meet in one point
   }
   return true;

@@ -63,6 +63,9 @@ private:
   bool isOpen(std::int32_t from, std::int32_t to, const std::vector<Loop>& loops) const;
   std::optional<Way> anyWay(const Loop& hole, const std::vector<Loop>& walls) const;
   bool clip();
+  void cut(std::size_t tip);
+  bool isSpike(std::size_t tip, double tolerance) const;
+  void clipSpikes();
   Triangle cornersAt(std::size_t tip) const;
   double offset(std::int32_t from, std::int32_t to, std::int32_t point) const;
   Harm harmOf(std::size_t tip) const;

@@ -107,6 +107,22 @@ std::vector<BooleanCase> hardCases()
   return cases;
 }
 
+double areaOf(const TriangleMesh& mesh)
+{
+  double area = 0.0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+  {
+    area += 0.5 * areaNormal(mesh, t).norm();
+  }
+  return area;
+}
+
+double coveredTwice(const BooleanResults& results, const TriangleMesh& a, const TriangleMesh& b)
+{
+  const double area = areaOf(a) + areaOf(b);
+  return (areaOf(results.unite.mesh) + areaOf(results.intersect.mesh) - area) / area;
+}
+
 TriangleMesh moved(TriangleMesh mesh, const Affine3& map)
 {
   for (Vec3& p : mesh.points)

@@ -34,8 +34,15 @@ struct BooleanResults
 };
 BooleanResults allOperations(const TriangleMesh& a, const TriangleMesh& b);
 
-/// What is wrong with the results: not closed and manifold, degenerate triangles, volumes that do
-/// not add up, or another volume than `common`. Empty if nothing is.
+double areaOf(const TriangleMesh& mesh);
+
+/// How much more surface union and intersection have than the operands, as a share of that: above 0
+/// where something is covered twice, as a hole with a lid is. Surfaces that coincide back to back
+/// are lost, which makes it less.
+double coveredTwice(const BooleanResults& results, const TriangleMesh& a, const TriangleMesh& b);
+
+/// What is wrong with the results: not closed and manifold, volumes that do not add up, or
+/// another volume than `common`. Empty if nothing is.
 std::string faultsOf(
   const BooleanResults& results, const TriangleMesh& a, const TriangleMesh& b, double common = -1);
 

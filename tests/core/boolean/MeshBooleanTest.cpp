@@ -128,6 +128,63 @@ TEST(MeshBoolean, HoleThatTouchesTheBorderOfItsTriangleIsCutOut)
   EXPECT_NEAR(area, (1.0 + third) * (1.0 + third) - 0.5 * leg * leg, 1e-12);
 }
 
+TEST(MeshBoolean, BoxesFlushWithEachOtherCoverNothingTwice)
+{
+  for (const BooleanCase& hard : hardCases())
+  {
+    if (hard.name.rfind("cube and box", 0) == 0)
+    {
+      EXPECT_LE(coveredTwice(allOperations(hard.a, hard.b), hard.a, hard.b), 1e-12) << hard.name;
+    }
+  }
+}
+
+TriangleMesh prism(const Vec3& base, double radius, double height, int sides)
+{
+  TriangleMesh mesh;
+  for (int k = 0; k < sides; ++k)
+  {
+    const double angle = 2.0 * std::acos(-1.0) * k / sides;
+    const Vec3 rim = base + radius * Vec3(std::cos(angle), std::sin(angle), 0.0);
+    mesh.points.push_back(rim);
+    mesh.points.push_back(rim + Vec3(0.0, 0.0, height));
+  }
+  mesh.points.push_back(base);
+  mesh.points.push_back(base + Vec3(0.0, 0.0, height));
+  for (std::int32_t k = 0; k < sides; ++k)
+  {
+    const std::int32_t low = 2 * k;
+    const std::int32_t next = 2 * ((k + 1) % sides);
+    mesh.triangles.push_back({ low, next, next + 1 });
+    mesh.triangles.push_back({ low, next + 1, low + 1 });
+    mesh.triangles.push_back({ 2 * sides, next, low });
+    mesh.triangles.push_back({ 2 * sides + 1, low + 1, next + 1 });
+  }
+  return mesh;
+}
+
+// Drills that end in the faces of a plate: the rims have doubled points, and holes were filled and
+// had a lid laid over them.
+TEST(MeshBoolean, HolesFlushWithAPlateGoThrough)
+{
+  const TriangleMesh plate = box(Vec3(0, 0, 0), Vec3(4, 2, 0.4));
+  for (const int sides : { 5, 16, 32, 33 })
+  {
+    TriangleMesh drills;
+    for (int k = 0; k < 4; ++k)
+    {
+      drills = joined(drills, prism(Vec3(0.6 + 0.9 * k, 1.0, 0.0), 0.28, 0.4, sides));
+    }
+    const BooleanResults results = allOperations(plate, drills);
+    EXPECT_EQ(faultsOf(results, plate, drills, signedVolume(drills)), "") << sides << " sides";
+    const double pi = std::acos(-1.0);
+    const double cap = 0.5 * sides * 0.28 * 0.28 * std::sin(2.0 * pi / sides);
+    const double wall = 0.4 * sides * 2.0 * 0.28 * std::sin(pi / sides);
+    EXPECT_NEAR(areaOf(results.subtract.mesh), 20.8 + 4.0 * (wall - 2.0 * cap), 1e-9)
+      << sides << " sides";
+  }
+}
+
 TEST(MeshBoolean, SmallShapeInsideOfOneTriangleMakesAHole)
 {
   const TriangleMesh cube = box(Vec3(0, 0, 0), Vec3(1, 1, 1));
