@@ -12,8 +12,9 @@
 // Debian, meshes come with libcgal-demo:
 //   tar -xzf /usr/share/doc/libcgal-dev/data.tar.gz && MeshBooleanFuzz data/meshes/*.off
 //
-// Right is: a closed, oriented 2-manifold without unused points; the volumes of union, intersection
-// and difference agree with each other (1e-9 of the operands'), and with the share of random points
+// Right is: a closed, oriented 2-manifold without unused points, nothing folded or covered twice
+// (foldedArea() and coveredTwice(), ours only); the volumes of union, intersection and difference
+// agree with each other (1e-10 of the operands'), and with the share of random points
 // that the exact inside tests of the operands find (3 standard deviations; among thousands some
 // pass those by chance, so once more with 25 times and then 400 times as many points). Peers get 20
 // seconds for an operation in a process of its own, so that what hangs or crashes counts as wrong

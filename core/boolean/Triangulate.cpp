@@ -278,7 +278,8 @@ bool Triangulator::clip()
   return true;
 }
 
-bool Triangulator::hasRepeatedEdges() const
+// An edge that two triangles run along the same way.
+std::optional<Triangulator::Side> Triangulator::repeatedEdge() const
 {
   std::vector<Side> sides;
   for (const Triangle& corner : made_)
@@ -288,12 +289,13 @@ bool Triangulator::hasRepeatedEdges() const
       sides.emplace_back(corner[k], corner[(k + 1) % 3]);
       if (corner[k] == corner[(k + 1) % 3])
       {
-        return true;
+        return sides.back();
       }
     }
   }
   std::sort(sides.begin(), sides.end());
-  return std::adjacent_find(sides.begin(), sides.end()) != sides.end();
+  const auto found = std::adjacent_find(sides.begin(), sides.end());
+  return found != sides.end() ? std::optional<Side>(*found) : std::nullopt;
 }
 
 // The smaller shape of the triangles left and right of a diagonal.
@@ -407,11 +409,15 @@ bool Triangulator::triangulate(const std::vector<PlanarPoint>& points,
   {
     return false;
   }
-  if (!this->clip() || (hasHoles_ && this->hasRepeatedEdges()))
+  if (!this->clip() || (hasHoles_ && this->repeatedEdge()))
   {
     return false;
   }
-  if (proper_ && made_.size() > 1)
+  if (this->isFolded())
+  {
+    this->unfold();
+  }
+  else if (proper_ && made_.size() > 1)
   {
     polygon_.size() > kSmall ? this->improveLarge() : this->improveSmall();
   }

@@ -27,6 +27,8 @@ inline double squaredDistance(const PlanarPoint& a, const PlanarPoint& b)
 }
 
 /// Triangulates polygons with holes by clipping ears, larger ones then toward Delaunay by flips.
+/// Where rounding has folded a polygon, so that ears cover something twice, the triangulation with
+/// the least area turned around is looked for among all.
 ///
 /// Answers for any loops, for those too that rounding has made touch or cross themselves: every
 /// pair of consecutive points becomes an edge of one triangle, every other edge is one of two.
@@ -76,7 +78,12 @@ private:
   std::size_t chooseSmall() const;
   std::size_t chooseLarge(std::size_t from) const;
   std::size_t chooseAny() const;
-  bool hasRepeatedEdges() const;
+  std::optional<Side> repeatedEdge() const;
+  double doubleArea(std::int32_t a, std::int32_t b, std::int32_t c) const;
+  double foldedArea() const;
+  bool isFolded() const;
+  bool unfold();
+  bool chooseLeastFolded(const std::set<Side>& forbidden);
   double worstOf(std::int32_t a, std::int32_t b, std::int32_t left, std::int32_t right) const;
   bool flip(std::size_t t, std::size_t u, std::int32_t a, std::int32_t b);
   void improveSmall();

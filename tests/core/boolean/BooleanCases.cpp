@@ -4,6 +4,7 @@
 #include "core/mesh/MeshChecks.h"
 #include "tests/support/TestMeshes.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -11,6 +12,9 @@ namespace hybridtree::test
 {
 namespace
 {
+
+// Share of the area that may be folded or covered twice: what rounding does.
+constexpr double kCovered = 1e-10;
 
 TriangleMesh boxAt(double x, double y, double z, double sizeX, double sizeY, double sizeZ)
 {
@@ -123,6 +127,22 @@ double coveredTwice(const BooleanResults& results, const TriangleMesh& a, const 
   return (areaOf(results.unite.mesh) + areaOf(results.intersect.mesh) - area) / area;
 }
 
+double foldedArea(const MeshBooleanResult& result, const TriangleMesh& a, const TriangleMesh& b)
+{
+  double area = 0.0;
+  for (std::size_t t = 0; t < result.mesh.triangles.size(); ++t)
+  {
+    if (result.sourceTriangle[t] >= 0)
+    {
+      const Vec3 source =
+        areaNormal(result.sourceOperand[t] == 0 ? a : b, std::size_t(result.sourceTriangle[t]));
+      const Vec3 made = areaNormal(result.mesh, t);
+      area += source.dot(made) < 0.0 ? 0.5 * made.norm() : 0.0;
+    }
+  }
+  return area;
+}
+
 TriangleMesh moved(TriangleMesh mesh, const Affine3& map)
 {
   for (Vec3& p : mesh.points)
@@ -183,6 +203,24 @@ std::string faultsOf(
   compare(both, common < 0.0 ? both : common, "intersection");
   compare(signedVolume(results.unite.mesh), volumeA + volumeB - both, "union");
   compare(signedVolume(results.subtract.mesh), volumeA - both, "difference");
+  const double twice = coveredTwice(results, a, b);
+  if (twice > kCovered)
+  {
+    faults += std::to_string(1e6 * twice) + " millionths covered twice; ";
+  }
+  TriangleMesh around = b; // as a difference has it
+  for (Triangle& corner : around.triangles)
+  {
+    std::swap(corner[1], corner[2]);
+  }
+  const double folded =
+    std::max({ foldedArea(results.unite, a, b), foldedArea(results.intersect, a, b),
+      foldedArea(results.subtract, a, around) }) /
+    (areaOf(a) + areaOf(b));
+  if (folded > kCovered)
+  {
+    faults += std::to_string(1e6 * folded) + " millionths folded; ";
+  }
   return faults;
 }
 

@@ -41,8 +41,12 @@ double areaOf(const TriangleMesh& mesh);
 /// are lost, which makes it less.
 double coveredTwice(const BooleanResults& results, const TriangleMesh& a, const TriangleMesh& b);
 
-/// What is wrong with the results: not closed and manifold, volumes that do not add up, or
-/// another volume than `common`. Empty if nothing is.
+/// The area of triangles that face against the triangle they are a part of: above 0 where one is
+/// folded over others. With none, what covers a face covers it as often as its border winds around.
+double foldedArea(const MeshBooleanResult& result, const TriangleMesh& a, const TriangleMesh& b);
+
+/// What is wrong with the results: not closed and manifold, volumes that do not add up, another
+/// volume than `common`, faces that are folded or covered twice. Empty if nothing is.
 std::string faultsOf(
   const BooleanResults& results, const TriangleMesh& a, const TriangleMesh& b, double common = -1);
 
