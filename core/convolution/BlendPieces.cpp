@@ -177,12 +177,53 @@ private:
   std::vector<std::vector<GroupDistance>> distances_;
 };
 
+// Of a segment.
+int partsOf(const GroupedElement<2>& segment, const std::array<Vec3, 2>& ends)
+{
+  return partsOf((ends[1] - ends[0]).norm(),
+    kPieceLength * std::min(segment.reaches[0], segment.reaches[1]), kMostParts);
+}
+
+// Of an edge of a triangle.
+int partsOf(const GroupedElement<3>& triangle, const std::array<Vec3, 3>& corners)
+{
+  double longest = 0.0;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    longest = std::max(longest, (corners[(k + 1) % 3] - corners[k]).norm());
+  }
+  return partsOf(longest,
+    kPieceSide * *std::min_element(triangle.reaches.begin(), triangle.reaches.end()), kMostSides);
+}
+
+// Of each element every corner has an equal part.
+std::vector<double> piecesAtPoints(const GroupedElements& elements)
+{
+  std::vector<double> pieces(elements.points.size(), 0.0);
+  const auto add = [&](const auto& element, double count)
+  {
+    for (const std::int32_t corner : element.corners)
+    {
+      pieces[static_cast<std::size_t>(corner)] += count / double(element.corners.size());
+    }
+  };
+  for (const GroupedElement<2>& segment : elements.segments)
+  {
+    add(segment, partsOf(segment, cornersOf(elements, segment)));
+  }
+  for (const GroupedElement<3>& triangle : elements.triangles)
+  {
+    const int sides = partsOf(triangle, cornersOf(elements, triangle));
+    add(triangle, double(sides) * sides);
+  }
+  return pieces;
+}
+
 void cut(const GroupedElements& elements, const GroupedElement<2>& segment,
   const GraphPlaces& places, BlendPieces& pieces)
 {
   const std::array<Vec3, 2> ends = cornersOf(elements, segment);
-  const int parts = partsOf((ends[1] - ends[0]).norm(),
-    kPieceLength * std::min(segment.reaches[0], segment.reaches[1]), kMostParts);
+  const int parts = partsOf(segment, ends);
   const auto at = [&](double u) { return Weighted<2>{ { 1.0 - u, u } }; };
   for (int k = 0; k < parts; ++k)
   {
@@ -198,13 +239,7 @@ void cut(const GroupedElements& elements, const GroupedElement<3>& triangle,
   const GraphPlaces& places, BlendPieces& pieces)
 {
   const std::array<Vec3, 3> corners = cornersOf(elements, triangle);
-  double longest = 0.0;
-  for (std::size_t k = 0; k < 3; ++k)
-  {
-    longest = std::max(longest, (corners[(k + 1) % 3] - corners[k]).norm());
-  }
-  const int sides = partsOf(longest,
-    kPieceSide * *std::min_element(triangle.reaches.begin(), triangle.reaches.end()), kMostSides);
+  const int sides = partsOf(triangle, corners);
   const auto at = [&](double i, double j) {
     return Weighted<3>{ { 1.0 - (i + j) / sides, i / sides, j / sides } };
   };
@@ -347,6 +382,7 @@ double BlendPieces::Place::from(std::int32_t other, double farthest) const
 BlendPieces makeBlendPieces(const GroupedElements& elements, const BlendingControl& control)
 {
   const BlendShare share(control);
+  requireFewDistances(elements, share.end(), piecesAtPoints(elements));
   BlendPieces pieces = cutAll(elements, GraphPlaces(elements, share.end()));
   pieces.meetings = findMeetings(pieces, share.farthest());
   return pieces;

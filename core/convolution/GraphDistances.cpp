@@ -3,7 +3,9 @@
 
 #include "core/base/Error.h"
 
+#include <algorithm>
 #include <limits>
+#include <numeric>
 #include <queue>
 #include <string>
 
@@ -115,7 +117,26 @@ private:
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
 };
 
+// The points of each group.
+std::vector<std::vector<std::size_t>> sourcesOf(const GroupedElements& elements)
+{
+  std::vector<std::vector<std::size_t>> sources(elements.groups.size());
+  collectPoints(elements.segments, sources);
+  collectPoints(elements.triangles, sources);
+  return sources;
+}
+
 constexpr std::size_t kMostDistances = 60000000; // about a gigabyte
+constexpr std::size_t kSamples = 256;
+constexpr double kClearly = 1.5; // so that what would fit is not refused by an estimate
+
+[[noreturn]] void refuse()
+{
+  throw TooLarge("Blending = neighbours would have to keep more than " +
+    std::to_string(kMostDistances) +
+    " distances along the skeleton: its elements are many and small beside the radius. Choose "
+    "Blending = all, a lower Level, a smaller radius or BlendDistance, or a coarser skeleton.");
+}
 
 } // namespace
 
@@ -124,10 +145,34 @@ void DistanceCount::add(std::size_t distances)
   count_ += distances;
   if (count_ > kMostDistances)
   {
-    throw TooLarge("Blending = neighbours would have to keep more than " +
-      std::to_string(kMostDistances) +
-      " distances along the skeleton: its elements are many and small beside the radius. Choose "
-      "Blending = all, a lower Level, a smaller radius or BlendDistance, or a coarser skeleton.");
+    refuse();
+  }
+}
+
+void requireFewDistances(
+  const GroupedElements& elements, double limit, const std::vector<double>& piecesAt)
+{
+  const double groups = static_cast<double>(elements.groups.size());
+  const double pieces = std::accumulate(piecesAt.begin(), piecesAt.end(), 0.0);
+  if (groups * pieces <= static_cast<double>(kMostDistances))
+  {
+    return;
+  }
+  const Ways ways = waysOf(elements);
+  const std::vector<std::vector<std::size_t>> sources = sourcesOf(elements);
+  const std::size_t samples = std::min(kSamples, sources.size());
+  Search search(ways);
+  double found = 0.0;
+  for (std::size_t k = 0; k < samples; ++k)
+  {
+    search.run(sources[k * sources.size() / samples], limit,
+      [&](std::size_t point, double distance)
+      { found += distance < limit ? piecesAt[point] : 0.0; });
+  }
+  if (found / static_cast<double>(samples) * groups >
+    kClearly * static_cast<double>(kMostDistances))
+  {
+    refuse();
   }
 }
 
@@ -135,9 +180,7 @@ std::vector<std::vector<GroupDistance>> groupDistances(
   const GroupedElements& elements, double limit)
 {
   const Ways ways = waysOf(elements);
-  std::vector<std::vector<std::size_t>> sources(elements.groups.size());
-  collectPoints(elements.segments, sources);
-  collectPoints(elements.triangles, sources);
+  const std::vector<std::vector<std::size_t>> sources = sourcesOf(elements);
   std::vector<std::vector<GroupDistance>> distances(elements.points.size());
   Search search(ways);
   DistanceCount count;

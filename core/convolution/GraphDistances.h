@@ -25,6 +25,12 @@ private:
   std::size_t count_ = 0;
 };
 
+/// Refuses what would clearly be too many, from a sample of the groups, before any are kept.
+/// \param piecesAt per point: its part of the pieces, cut from the elements at it, that keep their
+/// distances from groups (BlendPieces.h). \throws TooLarge
+void requireFewDistances(
+  const GroupedElements& elements, double limit, const std::vector<double>& piecesAt);
+
 /// Per point, ascending by group: every group within `limit`, and those that an edge from a point
 /// within the limit leads to. \throws TooLarge
 std::vector<std::vector<GroupDistance>> groupDistances(
