@@ -14,7 +14,9 @@ namespace hybridtree
 namespace
 {
 
-constexpr std::size_t kPart = 256; // points handled together
+constexpr std::size_t kPart = 256;      // points handled together
+constexpr std::size_t kManyGroups = 64; // that reach points whose sums are found together
+constexpr std::size_t kFewPoints = 8;   // that are not divided any more
 
 // The units' fields at some points, and where their sum may not be the field.
 class UnitSums
@@ -247,6 +249,40 @@ void mixSome(const PiecesNear& pieces, const std::vector<std::size_t>& some, Poi
   }
 }
 
+Box3 boxOf(PointBatch points, const std::vector<std::size_t>& some)
+{
+  Box3 box;
+  for (const std::size_t k : some)
+  {
+    box.extend(points[k]);
+  }
+  return box;
+}
+
+// As mixSome(). Where many groups reach the points these are halved along the longest side of their
+// box: what sums cost grows much faster than the groups of which they may be.
+void mixInParts(const BlendGroups& groups, const std::vector<std::size_t>& some, PointBatch points,
+  double* value, const VectorBatch* gradient, std::int32_t own)
+{
+  const Box3 box = boxOf(points, some);
+  {
+    const PiecesNear pieces(groups, box);
+    if (pieces.groupCount() <= kManyGroups || some.size() <= kFewPoints)
+    {
+      mixSome(pieces, some, points, value, gradient, own);
+      return;
+    }
+  }
+  Eigen::Index axis;
+  box.sizes().maxCoeff(&axis);
+  std::vector<std::size_t> sorted = some;
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end(),
+    [&](std::size_t a, std::size_t b) { return points[a][axis] < points[b][axis]; });
+  mixInParts(groups, { sorted.begin(), middle }, points, value, gradient, own);
+  mixInParts(groups, { middle, sorted.end() }, points, value, gradient, own);
+}
+
 void sumPart(const BlendGroups& groups, const BlendSelection& selection, PointBatch points,
   double* value, const VectorBatch* gradient, std::int32_t own)
 {
@@ -255,30 +291,36 @@ void sumPart(const BlendGroups& groups, const BlendSelection& selection, PointBa
   sums.addUp(value, gradient);
   sums.findOpen(isOpen.data());
   std::vector<std::size_t> open;
-  Box3 box;
   for (std::size_t k = 0; k < points.size; ++k)
   {
     if (isOpen[k] > 0.0)
     {
       open.push_back(k);
-      box.extend(points[k]);
     }
   }
   if (open.empty())
   {
     return;
   }
-  // Once more with what is near these points.
-  const PiecesNear pieces(groups, box);
-  sums.narrow(pieces);
-  sums.findOpen(isOpen.data());
-  open.erase(
-    std::remove_if(open.begin(), open.end(), [&](std::size_t k) { return !(isOpen[k] > 0.0); }),
-    open.end());
-  if (!open.empty())
   {
-    mixSome(pieces, open, points, value, gradient, own);
+    // Once more with what is near these points.
+    const PiecesNear pieces(groups, boxOf(points, open));
+    sums.narrow(pieces);
+    sums.findOpen(isOpen.data());
+    open.erase(
+      std::remove_if(open.begin(), open.end(), [&](std::size_t k) { return !(isOpen[k] > 0.0); }),
+      open.end());
+    if (open.empty())
+    {
+      return;
+    }
+    if (pieces.groupCount() <= kManyGroups)
+    {
+      mixSome(pieces, open, points, value, gradient, own);
+      return;
+    }
   }
+  mixInParts(groups, open, points, value, gradient, own);
 }
 
 } // namespace
