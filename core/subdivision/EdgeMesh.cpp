@@ -2,7 +2,6 @@
 #include "core/subdivision/EdgeMesh.h"
 
 #include <algorithm>
-#include <unordered_map>
 #include <utility>
 
 namespace hybridtree
@@ -11,6 +10,7 @@ namespace
 {
 
 constexpr double kClearly = 1.00001; // so that rounding does not choose between equal diagonals
+constexpr std::int32_t kNone = -1;
 
 } // namespace
 
@@ -18,21 +18,38 @@ EdgeMesh::EdgeMesh(
   const std::vector<Triangle>& triangles, const std::vector<std::int32_t>& elements)
   : triangles_(triangles), elements_(elements)
 {
-  std::unordered_map<std::uint64_t, std::int32_t> numbers;
+  // Edges by their smaller vertex, in chains: few have the same.
+  std::int32_t vertices = 0;
+  for (const auto& [a, b, c] : triangles)
+  {
+    vertices = std::max({ vertices, a + 1, b + 1, c + 1 });
+  }
+  std::vector<std::int32_t> first(std::size_t(vertices), kNone);
+  std::vector<std::int32_t> next; // per edge
+  const std::size_t expected = triangles.size() + triangles.size() / 2;
+  next.reserve(expected);
+  edges_.reserve(2 * expected);
+  const auto number = [&](std::int32_t a, std::int32_t b, std::int32_t element)
+  {
+    std::int32_t& chain = first[std::size_t(std::min(a, b))];
+    for (std::int32_t edge = chain; edge != kNone; edge = next[std::size_t(edge)])
+    {
+      const Edge& of = edges_[std::size_t(edge)];
+      if (std::max(of.a, of.b) == std::max(a, b))
+      {
+        return edge;
+      }
+    }
+    next.push_back(std::exchange(chain, std::int32_t(edges_.size())));
+    return this->addEdge(a, b, element);
+  };
   edgesOf_.reserve(triangles.size());
   for (std::size_t t = 0; t < triangles.size(); ++t)
   {
-    std::array<std::int32_t, 3> own;
-    for (std::size_t k = 0; k < 3; ++k)
-    {
-      const std::int32_t a = triangles[t][k];
-      const std::int32_t b = triangles[t][(k + 1) % 3];
-      const std::uint64_t key =
-        std::uint64_t(std::uint32_t(std::min(a, b))) << 32 | std::uint32_t(std::max(a, b));
-      const auto [found, isNew] = numbers.try_emplace(key, std::int32_t(edges_.size()));
-      own[k] = isNew ? this->addEdge(a, b, elements[t]) : found->second;
-    }
-    edgesOf_.push_back(own);
+    const auto [a, b, c] = triangles[t];
+    const std::int32_t ab = number(a, b, elements[t]);
+    const std::int32_t bc = number(b, c, elements[t]);
+    edgesOf_.push_back({ ab, bc, number(c, a, elements[t]) });
   }
 }
 
@@ -65,16 +82,19 @@ void EdgeMesh::add(const Triangle& triangle, const std::array<std::int32_t, 3>& 
 
 void EdgeMesh::divide(const std::vector<Vec3>& points)
 {
-  const std::vector<Triangle> triangles = std::exchange(triangles_, {});
-  const std::vector<std::int32_t> elements = std::exchange(elements_, {});
-  const std::vector<std::array<std::int32_t, 3>> edgesOf = std::exchange(edgesOf_, {});
-  triangles_.reserve(2 * triangles.size());
-  elements_.reserve(2 * triangles.size());
-  edgesOf_.reserve(2 * triangles.size());
-  for (std::size_t t = 0; t < triangles.size(); ++t)
+  std::swap(triangles_, wholes_);
+  std::swap(elements_, elementsOfWholes_);
+  std::swap(edgesOf_, edgesOfWholes_);
+  triangles_.clear();
+  elements_.clear();
+  edgesOf_.clear();
+  for (std::size_t t = 0; t < wholes_.size(); ++t)
   {
-    this->divide(triangles[t], edgesOf[t], elements[t], points);
-    elements_.resize(triangles_.size(), elements[t]);
+    this->divide(wholes_[t], edgesOfWholes_[t], elementsOfWholes_[t], points);
+    while (elements_.size() < triangles_.size())
+    {
+      elements_.push_back(elementsOfWholes_[t]);
+    }
   }
 }
 

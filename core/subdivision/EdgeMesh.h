@@ -59,6 +59,12 @@ private:
   std::vector<std::int32_t> elements_;
   std::vector<std::array<std::int32_t, 3>> edgesOf_;
   std::vector<Edge> edges_;
+  ///@{
+  /// While triangles are divided: those before.
+  std::vector<Triangle> wholes_;
+  std::vector<std::int32_t> elementsOfWholes_;
+  std::vector<std::array<std::int32_t, 3>> edgesOfWholes_;
+  ///@}
 };
 
 } // namespace hybridtree

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string>
 
 namespace hybridtree
@@ -61,8 +62,9 @@ private:
   PieceMesh mesh_;
   std::vector<double> radii_;
   EdgeMesh parts_;
-  std::vector<double> lengths_; // per edge
-  std::vector<char> isSplit_;   // per edge
+  std::vector<double> lengths_;        // per edge
+  std::vector<char> isSplit_;          // per edge
+  std::vector<std::size_t> untouched_; // triangles without an edge that is split
 };
 
 void Refiner::addPoint(const Vec3& point, const Vec3& normal, bool onSurface)
@@ -94,6 +96,7 @@ void Refiner::placeCage(const PieceCage& cage)
 std::vector<std::int32_t> Refiner::newEdges()
 {
   std::vector<std::int32_t> edges;
+  edges.reserve(parts_.edges().size() - lengths_.size());
   for (std::size_t k = lengths_.size(); k < parts_.edges().size(); ++k)
   {
     const Edge& edge = parts_.edges()[k];
@@ -157,13 +160,18 @@ bool Refiner::splitEdges()
 /// splits on both of its sides would come ever nearer to it.
 void Refiner::addLongestEdges(std::vector<std::int32_t>& split)
 {
+  untouched_.resize(parts_.edgesOf().size());
+  std::iota(untouched_.begin(), untouched_.end(), std::size_t(0));
   for (std::size_t before = 0; before < split.size();)
   {
     before = split.size();
-    for (const std::array<std::int32_t, 3>& edges : parts_.edgesOf())
+    std::size_t left = 0;
+    for (const std::size_t triangle : untouched_)
     {
+      const std::array<std::int32_t, 3>& edges = parts_.edgesOf()[triangle];
       if (!(isSplit_[edges[0]] | isSplit_[edges[1]] | isSplit_[edges[2]]))
       {
+        untouched_[left++] = triangle;
         continue;
       }
       std::int32_t longest = edges[0];
@@ -175,6 +183,7 @@ void Refiner::addLongestEdges(std::vector<std::int32_t>& split)
         split.push_back(longest);
       }
     }
+    untouched_.resize(left);
   }
 }
 
@@ -184,6 +193,7 @@ void Refiner::addMiddles(const std::vector<std::int32_t>& edges)
   std::vector<Vec3> gradient;
   const std::vector<double> value = fieldAt(field_, middles, &gradient);
   std::vector<SkeletonAxis> axes;
+  axes.reserve(edges.size());
   for (std::size_t k = 0; k < edges.size(); ++k)
   {
     const Edge& of = edge(edges[k]);

@@ -115,17 +115,53 @@ void slideBatch(const PlacedField& field, const std::vector<SkeletonAxis>& all,
   }
 }
 
+/// Numbers of things, by their elements, otherwise as they were. Elements of one piece are few.
+template <class Thing>
+std::vector<std::size_t> orderByElements(const std::vector<Thing>& things)
+{
+  std::vector<std::size_t> order(things.size());
+  std::iota(order.begin(), order.end(), std::size_t(0));
+  const auto isBefore = [](const Thing& a, const Thing& b) { return a.element < b.element; };
+  if (std::is_sorted(things.begin(), things.end(), isBefore))
+  {
+    return order;
+  }
+  const auto [least, most] = std::minmax_element(things.begin(), things.end(), isBefore);
+  const std::int32_t first = least->element;
+  const auto range = std::size_t(most->element - first) + 1;
+  if (range > 2 * things.size())
+  {
+    std::stable_sort(order.begin(), order.end(),
+      [&](std::size_t a, std::size_t b) { return isBefore(things[a], things[b]); });
+    return order;
+  }
+  std::vector<std::size_t> next(range + 1, 0);
+  for (const Thing& thing : things)
+  {
+    ++next[std::size_t(thing.element - first) + 1];
+  }
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  for (std::size_t k = 0; k < things.size(); ++k)
+  {
+    order[next[std::size_t(things[k].element - first)]++] = k;
+  }
+  return order;
+}
+
 /// body(order, count) for at most kBatch numbers of things at a time, of one element each if these
 /// have fields of their own.
 template <class Thing, typename Body>
 void forBatches(const PlacedField& field, const std::vector<Thing>& things, const Body& body)
 {
-  std::vector<std::size_t> order(things.size());
-  std::iota(order.begin(), order.end(), std::size_t(0));
+  std::vector<std::size_t> order;
   if (field.elements)
   {
-    std::stable_sort(order.begin(), order.end(),
-      [&](std::size_t a, std::size_t b) { return things[a].element < things[b].element; });
+    order = orderByElements(things);
+  }
+  else
+  {
+    order.resize(things.size());
+    std::iota(order.begin(), order.end(), std::size_t(0));
   }
   std::size_t end = 0;
   for (std::size_t begin = 0; begin < order.size(); begin = end)
