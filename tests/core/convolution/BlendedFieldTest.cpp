@@ -196,6 +196,29 @@ TEST(BlendedField, TooManyDistancesAreRefused)
   EXPECT_THROW(count.add(1000000000), TooLarge);
 }
 
+// Of a long chain each element but the last few is near eight points: 160 000 in all.
+TEST(BlendedField, TooManyDistancesAreRefusedBeforeAnyIsKept)
+{
+  constexpr int kSegments = 20000;
+  GroupedElements elements;
+  for (std::int32_t k = 0; k <= kSegments; ++k)
+  {
+    elements.points.emplace_back(k, 0.0, 0.0);
+    elements.reaches.push_back(1.0);
+    if (k < kSegments)
+    {
+      elements.segments.push_back({ { k, k + 1 }, { 1.0, 1.0 }, k });
+      elements.groups.push_back({ k, k + 1, -1 });
+    }
+  }
+  const auto require = [&](double piecesAtPoint)
+  {
+    requireFewDistances(elements, 3.25, std::vector<double>(elements.points.size(), piecesAtPoint));
+  };
+  EXPECT_NO_THROW(require(370.0)); // just within the limit of 6e7
+  EXPECT_THROW(require(600.0), TooLarge);
+}
+
 // Not only between pieces, of which there is one here.
 TEST(BlendedField, MeshesOfLargePiecesAreCancelledSoon)
 {
