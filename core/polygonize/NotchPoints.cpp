@@ -41,7 +41,8 @@ constexpr double kReach = 0.3;       // in which the surface is looked for near 
 constexpr double kRise = 4.0;        // and over a site without one
 constexpr double kLeastHeight = 0.1; // of the triangles around the point
 constexpr double kMargin = 6.0;
-constexpr double kGroup = 32.0; // side of the cubes whose sites are looked at together
+constexpr double kGroup = 32.0; // side of the cubes whose sites ask the same narrowed field
+constexpr std::size_t kSitesPerTask = 64;
 
 /// The sites of one task, which lie together.
 class NotchFinder
@@ -432,12 +433,16 @@ std::vector<NotchPoint> findNotchPoints(const FieldSource& field, double cellSiz
         {
           continue;
         }
-        NotchFinder finder(*near, cellSize);
-        for (std::size_t k = begins[g]; k < end; ++k)
-        {
-          finder.add(sites[order[k]], points[order[k]]);
-        }
-        finder.run();
+        parallelFor(end - begins[g], kSitesPerTask,
+          [&](std::size_t first, std::size_t last)
+          {
+            NotchFinder finder(*near, cellSize);
+            for (std::size_t k = begins[g] + first; k < begins[g] + last; ++k)
+            {
+              finder.add(sites[order[k]], points[order[k]]);
+            }
+            finder.run();
+          });
       }
     });
   return points;

@@ -94,50 +94,67 @@ public:
 
   StitchedMesh run()
   {
-    this->select();
-    pointCount_ = result_.keptPoints;
-    triangleCount_ = result_.keptTriangles;
-    for (const PlacedIsland& placed : islands_)
-    {
-      firstPoints_.push_back(pointCount_);
-      pointCount_ += ownPoints(placed);
-      triangleCount_ += placed.island->mesh.triangles.size();
-      result_.samplePoints += placed.island->samplePoints;
-      result_.cutTriangles += placed.island->cutTriangles;
-    }
-    const std::array<void (Assembler::*)(), 6> fills = { &Assembler::fillTriangles,
-      &Assembler::fillPoints, &Assembler::fillNormals, &Assembler::fillOrigins,
-      &Assembler::fillLeaves, &Assembler::fillSourceTriangles };
-    parallelFor(fills.size(), 1,
-      [&](std::size_t begin, std::size_t end)
-      {
-        for (std::size_t k = begin; k < end; ++k)
-        {
-          (this->*fills[k])();
-        }
-      });
+    this->selectTriangles();
+    this->runAll(
+      { &Assembler::selectPoints, &Assembler::fillLeaves, &Assembler::fillSourceTriangles });
+    this->runAll({ &Assembler::fillTriangles, &Assembler::fillOrigins, &Assembler::fillPoints,
+      &Assembler::fillNormals });
     return std::move(result_);
   }
 
 private:
+  using Step = void (Assembler::*)();
+
+  /// Each of these writes what no other one reads or writes.
+  void runAll(const std::vector<Step>& steps)
+  {
+    parallelFor(steps.size(), 1,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t k = begin; k < end; ++k)
+        {
+          (this->*steps[k])();
+        }
+      });
+  }
+
   static std::size_t ownPoints(const PlacedIsland& placed)
   {
     return placed.island->mesh.points.size() - placed.island->rim.size();
   }
 
-  /// What is kept keeps its order; points of no triangle go.
-  void select()
+  /// What is kept keeps its order.
+  void selectTriangles()
   {
-    std::vector<std::vector<std::int32_t>> gone(parts_.size());
-    std::vector<std::vector<std::int32_t>> used(parts_.size()); // points that islands have
+    gone_.resize(parts_.size());
     for (const PlacedIsland& placed : islands_)
     {
       const Island& island = *placed.island;
       for (std::size_t k = 0; k < placed.parts.size(); ++k)
       {
-        auto& all = gone[placed.parts[k]];
+        auto& all = gone_[placed.parts[k]];
         all.insert(all.end(), island.gone[k].begin(), island.gone[k].end());
       }
+      triangleCount_ += island.mesh.triangles.size();
+      result_.samplePoints += island.samplePoints;
+      result_.cutTriangles += island.cutTriangles;
+    }
+    for (std::size_t p = 0; p < parts_.size(); ++p)
+    {
+      std::sort(gone_[p].begin(), gone_[p].end());
+      triangles_.emplace_back(parts_[p].mesh->triangles.size(), gone_[p], result_.keptTriangles);
+      result_.keptTriangles += triangles_.back().count();
+    }
+    triangleCount_ += result_.keptTriangles;
+  }
+
+  /// Points of no triangle go.
+  void selectPoints()
+  {
+    std::vector<std::vector<std::int32_t>> used(parts_.size()); // points that islands have
+    for (const PlacedIsland& placed : islands_)
+    {
+      const Island& island = *placed.island;
       for (const Triangle& triangle : island.mesh.triangles)
       {
         for (const std::int32_t v : triangle)
@@ -151,13 +168,15 @@ private:
     }
     for (std::size_t p = 0; p < parts_.size(); ++p)
     {
-      std::sort(gone[p].begin(), gone[p].end());
-      const TriangleMesh& mesh = *parts_[p].mesh;
-      points_.emplace_back(
-        mesh.points.size(), this->pointsWithout(p, gone[p], used[p]), result_.keptPoints);
-      triangles_.emplace_back(mesh.triangles.size(), gone[p], result_.keptTriangles);
+      points_.emplace_back(parts_[p].mesh->points.size(), this->pointsWithout(p, gone_[p], used[p]),
+        result_.keptPoints);
       result_.keptPoints += points_.back().count();
-      result_.keptTriangles += triangles_.back().count();
+    }
+    pointCount_ = result_.keptPoints;
+    for (const PlacedIsland& placed : islands_)
+    {
+      firstPoints_.push_back(pointCount_);
+      pointCount_ += ownPoints(placed);
     }
   }
 
@@ -346,10 +365,11 @@ private:
   const std::vector<PlacedIsland>& islands_;
   bool hasSourceTriangles_ = false;
   bool hasOrigins_ = false;
-  std::vector<Selection> points_;        ///< per part
-  std::vector<Selection> triangles_;     ///< per part
-  std::vector<std::size_t> firstPoints_; ///< per island: of its own ones, in the result
-  std::size_t pointCount_ = 0;           ///< of the result
+  std::vector<std::vector<std::int32_t>> gone_; ///< per part: triangles, rising
+  std::vector<Selection> points_;               ///< per part
+  std::vector<Selection> triangles_;            ///< per part
+  std::vector<std::size_t> firstPoints_;        ///< per island: of its own ones, in the result
+  std::size_t pointCount_ = 0;                  ///< of the result
   std::size_t triangleCount_ = 0;
   StitchedMesh result_;
 };

@@ -39,16 +39,7 @@ Index3 brickOf(const Index3& index)
 
 int CellSet::lowestBit(std::uint64_t word)
 {
-  int bit = 0;
-  for (int step = 32; step > 0; step /= 2)
-  {
-    if ((word & ((std::uint64_t(1) << step) - 1)) == 0)
-    {
-      word >>= step;
-      bit += step;
-    }
-  }
-  return bit;
+  return static_cast<int>(bitCount(~word & (word - 1))); // the zeros below it
 }
 
 std::size_t CellSet::Brick::size() const

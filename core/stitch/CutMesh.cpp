@@ -201,8 +201,10 @@ private:
   std::size_t split(Piece& piece, const Plane& plane)
   {
     const std::size_t n = piece.size();
+    // By slab(), which begins at its plane.
+    const double height = grid_.plane(plane.axis, plane.index);
     const auto isBelow = [&](std::size_t k)
-    { return this->slab(piece[k % n].vertex, plane.axis) < plane.index; };
+    { return this->point(piece[k < n ? k : k - n].vertex)[plane.axis] < height; };
     std::size_t start = 0; // above, with its predecessor below
     while (start < n && !(!isBelow(start) && isBelow(start + n - 1)))
     {

@@ -210,7 +210,7 @@ void PatchBricks::sample(const Run& run, const FieldSource& field, const Lattice
     {
       for (std::uint64_t word = brick.points[z]; word != 0; word &= word - 1)
       {
-        chosen.push_back({ &brick, kBrickSide * kBrickSide * z + PatchBrick::lowestBit(word) });
+        chosen.push_back({ &brick, kBrickSide * kBrickSide * z + CellSet::lowestBit(word) });
       }
     }
     if (chosen.size() > before)
@@ -247,15 +247,6 @@ void PatchBricks::sample(const Run& run, const FieldSource& field, const Lattice
   }
 }
 
-PatchBricks::Place PatchBricks::locate(const PatchBrick& brick, int x, int y, int z)
-{
-  const int n = (x + kBrickSide) / kBrickSide + 3 * ((y + kBrickSide) / kBrickSide) +
-    9 * ((z + kBrickSide) / kBrickSide);
-  const std::int32_t near = brick.near[n];
-  return { near < 0 ? nullptr : &bricks_[near], (x + kBrickSide) % kBrickSide,
-    (y + kBrickSide) % kBrickSide, (z + kBrickSide) % kBrickSide };
-}
-
 PatchBricks::Place PatchBricks::locate(const Index3& index)
 {
   const Index3 brick = brickOf(index);
@@ -264,21 +255,6 @@ PatchBricks::Place PatchBricks::locate(const Index3& index)
     static_cast<int>(index[0] - kBrickSide * brick[0]),
     static_cast<int>(index[1] - kBrickSide * brick[1]),
     static_cast<int>(index[2] - kBrickSide * brick[2]) };
-}
-
-int PatchBrick::lowestBit(std::uint64_t word)
-{
-  std::uint64_t bit = word & (~word + 1);
-  int n = 0;
-  for (int step = 32; step > 0; step /= 2)
-  {
-    if (bit >> step != 0)
-    {
-      bit >>= step;
-      n += step;
-    }
-  }
-  return n;
 }
 
 bool PatchBricks::isInside(const PatchBrick& brick, int x, int y, int z)

@@ -46,8 +46,6 @@ struct PatchBrick
     };
     return square(bits[z]) | square(bits[z + 1]) << 4;
   }
-  /// Number of the lowest bit of a word that is not 0.
-  static int lowestBit(std::uint64_t word);
   /// Calls body(cell), with its place in the brick, for the marked cells.
   template <class Body>
   void forEachCell(Body&& body) const
@@ -56,7 +54,7 @@ struct PatchBrick
     {
       for (std::uint64_t word = cells[z]; word != 0; word &= word - 1)
       {
-        const int n = lowestBit(word);
+        const int n = CellSet::lowestBit(word);
         body(std::array<int, 3>{ n % kBrickSide, n / kBrickSide, z });
       }
     }
@@ -93,7 +91,15 @@ public:
     int x = 0, y = 0, z = 0;
   };
   /// \param x, y, z relative to a brick, from -8 to 15.
-  Place locate(const PatchBrick& brick, int x, int y, int z);
+  Place locate(const PatchBrick& brick, int x, int y, int z)
+  {
+    const auto past = [](int place) { return static_cast<unsigned>(place + kBrickSide); };
+    const unsigned n =
+      past(x) / kBrickSide + 3 * (past(y) / kBrickSide) + 9 * (past(z) / kBrickSide);
+    const auto within = [&](int place) { return static_cast<int>(past(place) % kBrickSide); };
+    const std::int32_t near = brick.near[n];
+    return { near < 0 ? nullptr : &bricks_[near], within(x), within(y), within(z) };
+  }
   Place locate(const Index3& index);
   /// The side of a lattice point; outside where it is no corner of a marked cell.
   bool isInside(const PatchBrick& brick, int x, int y, int z);

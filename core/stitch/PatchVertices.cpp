@@ -55,7 +55,7 @@ private:
             for (std::uint64_t word = brick.inner[axis][z]; word != 0; word &= word - 1)
             {
               const std::uint64_t bit = word & (~word + 1);
-              const int n = PatchBrick::lowestBit(bit);
+              const int n = CellSet::lowestBit(bit);
               const int x = n % kBrickSide;
               const int y = n / kBrickSide;
               const bool low = PatchBrick::has(brick.inside, x, y, z);
@@ -128,7 +128,7 @@ private:
       {
         for (std::uint64_t word = brick.crossed[axis][z]; word != 0; word &= word - 1)
         {
-          const int n = PatchBrick::lowestBit(word);
+          const int n = CellSet::lowestBit(word);
           edges.push_back(this->edgeAt(brick, axis, n % kBrickSide, n / kBrickSide, z));
         }
       }

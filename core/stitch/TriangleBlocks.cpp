@@ -2,6 +2,7 @@
 #include "core/stitch/TriangleBlocks.h"
 
 #include "core/base/Parallel.h"
+#include "core/stitch/CellSet.h"
 
 #include <algorithm>
 #include <atomic>
@@ -16,12 +17,36 @@ constexpr double kTrianglesPerBlock = 64.0; // of those in which there is surfac
 constexpr double kMostAlong = 128.0;        // blocks
 constexpr std::size_t kMostLarge = 64;      // one in so many triangles may be large
 constexpr double kSlack = 1e-9;             // of the extent, for rounding
+constexpr std::size_t kMostBits = 256;      // per number to sort
 constexpr std::size_t kGrain = 16384;
 
 Box3 boxOf(const TriangleMesh& mesh, const Triangle& c)
 {
   Box3 box(mesh.points[c[0]]);
   return box.extend(mesh.points[c[1]]).extend(mesh.points[c[2]]);
+}
+
+/// Different numbers below `size`. Of many, to look at a bit for each takes less than to compare.
+void sortNumbers(std::vector<std::int32_t>& numbers, std::size_t size)
+{
+  if (size > kMostBits * numbers.size())
+  {
+    std::sort(numbers.begin(), numbers.end());
+    return;
+  }
+  std::vector<std::uint64_t> words((size + 63) / 64, 0);
+  for (const std::int32_t number : numbers)
+  {
+    words[std::size_t(number) / 64] |= std::uint64_t(1) << (number % 64);
+  }
+  auto next = numbers.begin();
+  for (std::size_t k = 0; k < words.size(); ++k)
+  {
+    for (std::uint64_t word = words[k]; word != 0; word &= word - 1)
+    {
+      *next++ = std::int32_t(64 * k) + CellSet::lowestBit(word);
+    }
+  }
 }
 
 } // namespace
@@ -152,7 +177,7 @@ std::vector<std::int32_t> TriangleBlocks::near(const std::vector<Box3>& boxes) c
       result.push_back(large.triangle);
     }
   }
-  std::sort(result.begin(), result.end());
+  sortNumbers(result, triangles_.size());
   return result;
 }
 
