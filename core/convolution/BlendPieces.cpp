@@ -311,6 +311,18 @@ void forEachPiece(const BlendPieces& pieces, const Body& body)
   }
 }
 
+// Of each group once, ascending, the farthest.
+void keepFarthest(std::vector<BlendPieces::Meeting>& list)
+{
+  std::sort(list.begin(), list.end(),
+    [](const BlendPieces::Meeting& a, const BlendPieces::Meeting& b)
+    { return a.group != b.group ? a.group < b.group : a.farthest > b.farthest; });
+  list.erase(std::unique(list.begin(), list.end(),
+               [](const BlendPieces::Meeting& a, const BlendPieces::Meeting& b)
+               { return a.group == b.group; }),
+    list.end());
+}
+
 // The groups that pieces of each meet, with fields that have an end.
 std::vector<std::vector<BlendPieces::Meeting>> findMeetings(
   const BlendPieces& pieces, double farthest)
@@ -321,31 +333,30 @@ std::vector<std::vector<BlendPieces::Meeting>> findMeetings(
     { reaches[static_cast<std::size_t>(place.group)].extend(reach); });
   const ElementTree tree(reaches);
   std::vector<std::vector<BlendPieces::Meeting>> lists(reaches.size());
+  std::vector<std::size_t> limits(reaches.size(), 256); // of the lists, so that they stay short
   forEachPiece(pieces,
     [&](const BlendPieces::Place& place, const Box3& reach)
     {
+      const auto own = static_cast<std::size_t>(place.group);
+      if (lists[own].size() > limits[own])
+      {
+        keepFarthest(lists[own]);
+        limits[own] = std::max(limits[own], 2 * lists[own].size());
+      }
       tree.visit(reach,
         [&](std::uint32_t other)
         {
           const auto group = static_cast<std::int32_t>(other);
           if (group != place.group)
           {
-            lists[static_cast<std::size_t>(place.group)].push_back(
-              { group, false, place.from(group, farthest) });
+            lists[own].push_back({ group, false, place.from(group, farthest) });
           }
         });
     });
   for (std::size_t k = 0; k < lists.size(); ++k)
   {
     std::vector<BlendPieces::Meeting>& list = lists[k];
-    // The farthest of a group first: it stays.
-    std::sort(list.begin(), list.end(),
-      [](const BlendPieces::Meeting& a, const BlendPieces::Meeting& b)
-      { return a.group != b.group ? a.group < b.group : a.farthest > b.farthest; });
-    list.erase(std::unique(list.begin(), list.end(),
-                 [](const BlendPieces::Meeting& a, const BlendPieces::Meeting& b)
-                 { return a.group == b.group; }),
-      list.end());
+    keepFarthest(list);
     for (BlendPieces::Meeting& meeting : list)
     {
       const std::vector<std::int32_t>& neighbours = pieces.neighbours[k];

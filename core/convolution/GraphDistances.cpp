@@ -127,8 +127,8 @@ std::vector<std::vector<std::size_t>> sourcesOf(const GroupedElements& elements)
 }
 
 constexpr std::size_t kMostDistances = 60000000; // about a gigabyte
-constexpr std::size_t kSamples = 256;
-constexpr double kClearly = 1.5; // so that what would fit is not refused by an estimate
+constexpr std::size_t kSamples = 512;
+constexpr double kClearly = 1.15; // so that what would fit is not refused by an estimate
 
 [[noreturn]] void refuse()
 {
