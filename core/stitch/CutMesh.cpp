@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/stitch/CutMesh.h"
 
+#include "core/stitch/CutPlanes.h"
 #include "core/stitch/FillPolygon.h"
 
 #include <algorithm>
@@ -13,7 +14,7 @@ namespace
 
 constexpr std::int8_t kNoPlane = -1;
 
-/// A plane of the lattice; of no axis: no plane, a side of the triangle itself.
+/// A plane of the lattice; of no axis: no plane, but the side of the triangle with this number.
 struct Plane
 {
   std::int8_t axis = kNoPlane;
@@ -57,6 +58,7 @@ public:
     , cells_(cells)
     , grid_(grid)
     , points_(static_cast<std::int32_t>(mesh.points.size()))
+    , planes_(cells, grid)
   {
     low_ = cells.low();
     high_ = cells.high();
@@ -146,8 +148,14 @@ private:
     sides_.clear();
     some_ = false;
     all_ = true;
+    current_ = t;
     const Triangle& c = mesh_.triangles[t];
-    whole_ = { { c[0], {} }, { c[1], {} }, { c[2], {} } };
+    planes_.choose(mesh_.points[c[0]], mesh_.points[c[1]], mesh_.points[c[2]]);
+    whole_.clear();
+    for (std::int8_t k = 0; k < 3; ++k)
+    {
+      whole_.push_back({ c[k], { kNoPlane, k } });
+    }
     this->cutPiece(whole_, {}, 0);
     if (!some_)
     {
@@ -166,7 +174,7 @@ private:
   {
     if (axis == 3)
     {
-      const bool outside = !cells_.contains(cell);
+      const bool outside = !planes_.areAround(cell) || !cells_.contains(cell);
       some_ = some_ || !outside;
       all_ = all_ && !outside;
       for (std::size_t k = 0; k < piece.size(); ++k)
@@ -186,6 +194,10 @@ private:
     }
     for (cell[axis] = first; cell[axis] < last; ++cell[axis])
     {
+      if (!planes_.has(axis, cell[axis] + 1))
+      {
+        continue;
+      }
       const std::size_t count =
         this->split(piece, { static_cast<std::int8_t>(axis), cell[axis] + 1 });
       for (std::size_t k = 0; k < count; ++k)
@@ -250,10 +262,15 @@ private:
     return count;
   }
 
-  /// Where the side from a corner meets the plane: one vertex for both who have that side.
+  /// Where the side from a corner meets the plane: one vertex for both who have that side. A side
+  /// of the triangle may be in other parts for the triangle beyond: its vertices are told by all of
+  /// it.
   std::int32_t vertexAt(const Corner& corner, std::int32_t other, const Plane& plane)
   {
-    const auto [a, b] = std::minmax(corner.vertex, other);
+    const bool onEdge = corner.side.axis == kNoPlane;
+    const Triangle& c = mesh_.triangles[current_];
+    const auto [a, b] = onEdge ? std::minmax(c[corner.side.index], c[(corner.side.index + 1) % 3])
+                               : std::minmax(corner.vertex, other);
     const auto [found, isNew] = numbers_.try_emplace({ a, b, plane.index, plane.axis },
       static_cast<std::int32_t>(points_ + static_cast<std::int32_t>(positions_.size())));
     if (!isNew)
@@ -267,10 +284,12 @@ private:
     const double height = grid_.plane(axis, plane.index);
     const double share = std::clamp((height - from[axis]) / (to[axis] - from[axis]), 0.0, 1.0);
     Vec3 position = from + share * (to - from);
-    position = position.cwiseMax(from.cwiseMin(to)).cwiseMin(from.cwiseMax(to));
+    const Vec3& p = this->point(corner.vertex);
+    const Vec3& q = this->point(other);
+    position = position.cwiseMax(p.cwiseMin(q)).cwiseMin(p.cwiseMax(q));
     position[axis] = height;
     Made made;
-    made.onEdge = corner.side.axis == kNoPlane;
+    made.onEdge = onEdge;
     if (!made.onEdge)
     {
       made.isCrossing = true;
@@ -289,7 +308,6 @@ private:
   /// Keeps the outside of a triangle that the border cuts.
   void takeApart(std::int32_t t)
   {
-    current_ = t;
     std::sort(sides_.begin(), sides_.end(),
       [](const Side& a, const Side& b)
       { return std::make_pair(a.ends(), a.from) < std::make_pair(b.ends(), b.from); });
@@ -421,7 +439,8 @@ private:
   const std::int32_t points_;
   Index3 low_{};
   Index3 high_{};
-  Box3 bounds_; ///< of the cells, and a bit more
+  Box3 bounds_;      ///< of the cells, and a bit more
+  CutPlanes planes_; ///< of the triangle that is being cut
   CutMesh result_;
   std::vector<Vec3> positions_; ///< of made vertices
   std::vector<Made> made_;
