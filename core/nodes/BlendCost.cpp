@@ -16,7 +16,7 @@ constexpr double kMeshSample = 2.2;
 // samples have some hundred points each.
 constexpr double kPointsPerSquare = 1.5;
 constexpr double kSamplesPerPoint = 5.0;
-constexpr double kPoint = 0.22; // to place and to connect
+constexpr double kPoint = 0.125; // to place and to connect
 
 // The work is at the border, which is cut, joined and mended. Where little is marked, and the
 // choice is open, all that is inside comes with it.

@@ -10,7 +10,7 @@ namespace hybridtree
 
 /// What the ways to mesh a blend cost, by counting what they do: to choose the cheapest. Costs are
 /// microseconds of one processor; only their ratios matter. The counts are those of the case; what
-/// one of each costs was fitted once, to 300 pairs of balls and to blends on a scan.
+/// one of each costs was fitted to pairs of balls and to blends on a scan.
 class BlendCost
 {
 public:
