@@ -5,6 +5,7 @@
 #include "core/boolean/Triangulate.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -298,11 +299,24 @@ private:
     return inside;
   }
 
+  // Twice the area that rounding may give to what has none.
+  double rounding(const Triangulator::Loop& loop) const
+  {
+    double largest = 0.0, sides = 0.0;
+    for (std::size_t k = 0; k < loop.size(); ++k)
+    {
+      const PlanarPoint& p = points_[std::size_t(loop[k])];
+      largest = std::max({ largest, std::abs(p.x), std::abs(p.y) });
+      sides += std::sqrt(squaredDistance(p, points_[std::size_t(loop[(k + 1) % loop.size()])]));
+    }
+    return 0x1p-46 * largest * sides;
+  }
+
   // The smallest part around most of a hole: rounding may put a point of it beyond the border.
   std::size_t faceAround(
     const Triangulator::Loop& hole, const std::vector<std::vector<Triangulator::Loop>>& faces) const
   {
-    if (faces.size() == 1)
+    if (faces.size() == 1 && this->areaOf(hole) < -this->rounding(hole))
     {
       return 0;
     }
@@ -355,14 +369,11 @@ private:
     for (Triangulator::Loop& hole : holes)
     {
       const std::size_t around = this->faceAround(hole, faces);
-      if (around < faces.size())
+      if (around == faces.size())
       {
-        faces[around].push_back(std::move(hole));
+        faces.emplace_back(); // of no area, by rounding
       }
-      else
-      {
-        faces.push_back({ std::move(hole) }); // of no area, by rounding
-      }
+      faces[around].push_back(std::move(hole));
     }
     for (const std::vector<Triangulator::Loop>& face : faces)
     {

@@ -63,6 +63,9 @@ private:
   bool bridge(const std::vector<Loop>& loops);
   bool isVisible(std::int32_t from, std::int32_t to, const std::vector<Loop>& loops) const;
   bool isOpen(std::int32_t from, std::int32_t to, const std::vector<Loop>& loops) const;
+  PlanarPoint inwardOf(const Loop& hole, std::size_t h) const;
+  const PlanarPoint& leaving(const Loop& loop, std::size_t from, std::size_t step) const;
+  bool isAround(std::size_t k, const Loop& hole, std::size_t h) const;
   std::optional<Way> anyWay(const Loop& hole, const std::vector<Loop>& walls) const;
   bool clip();
   void cut(std::size_t tip);

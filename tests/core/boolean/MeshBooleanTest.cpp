@@ -104,30 +104,6 @@ TEST(MeshBoolean, ResultsAreOperands)
   }
 }
 
-// A corner of A pokes through a face of B and ends in the plane of another: the hole that it cuts
-// touches the border of its triangle. It was filled, and a lid laid over it.
-TEST(MeshBoolean, HoleThatTouchesTheBorderOfItsTriangleIsCutOut)
-{
-  const double third = 1.0 / 3.0;
-  TriangleMesh wedge;
-  wedge.points = { Vec3(-third, -third, -third), Vec3(third, -third, -third),
-    Vec3(-third, third, -third), Vec3(-third, -third, third) };
-  wedge.triangles = { { 0, 2, 1 }, { 0, 1, 3 }, { 0, 3, 2 }, { 1, 2, 3 } };
-  const TriangleMesh cube = box(Vec3(-third - 0x1p-53, 0.32, -third), Vec3(1, 1, 1));
-  const BooleanResults results = allOperations(wedge, cube);
-  EXPECT_EQ(faultsOf(results, wedge, cube), "");
-  double area = 0.0; // of the cube's face around the hole
-  for (std::size_t t = 0; t < results.unite.mesh.triangles.size(); ++t)
-  {
-    const Vec3 normal = areaNormal(results.unite.mesh, t);
-    area += results.unite.sourceOperand[t] == 1 && -normal.y() > 0.9 * normal.norm()
-      ? 0.5 * normal.norm()
-      : 0.0;
-  }
-  const double leg = third - 0.32;
-  EXPECT_NEAR(area, (1.0 + third) * (1.0 + third) - 0.5 * leg * leg, 1e-12);
-}
-
 TEST(MeshBoolean, BoxesFlushWithEachOtherCoverNothingTwice)
 {
   for (const BooleanCase& hard : hardCases())
@@ -182,6 +158,30 @@ TEST(MeshBoolean, HolesFlushWithAPlateGoThrough)
     const double wall = 0.4 * sides * 2.0 * 0.28 * std::sin(pi / sides);
     EXPECT_NEAR(areaOf(results.subtract.mesh), 20.8 + 4.0 * (wall - 2.0 * cap), 1e-9)
       << sides << " sides";
+  }
+}
+
+// A corner of a hole lies on the diagonal or on the border of a plate's face, but for rounding.
+TEST(MeshBoolean, HolesThatTouchTheBordersOfTrianglesAreCutOut)
+{
+  Random random(26);
+  for (int round = 0; round < 60; ++round)
+  {
+    const TriangleMesh plate = box(Vec3(0, 0, 0), Vec3(4, 2, 0.4));
+    const int sides = 4 * random.integer(1, 5);
+    const double radius = random.uniform(0.1, 0.45);
+    const double x = random.uniform(0.6, 3.4);
+    const double y = random.chance(0.3) ? radius : 0.5 * x - radius;
+    const double depth = random.chance(0.5) ? 0.0 : 0.1;
+    const TriangleMesh drill =
+      prism(Vec3(x, std::max(y, radius), -depth), radius, 0.4 + 2.0 * depth, sides);
+    const BooleanResults results = allOperations(plate, drill);
+    const std::string where = "round " + std::to_string(round);
+    EXPECT_EQ(faultsOf(results, plate, drill), "") << where;
+    const double pi = std::acos(-1.0);
+    const double cap = 0.5 * sides * radius * radius * std::sin(2.0 * pi / sides);
+    const double wall = 0.4 * sides * 2.0 * radius * std::sin(pi / sides);
+    EXPECT_NEAR(areaOf(results.subtract.mesh), 20.8 + wall - 2.0 * cap, 1e-9) << where;
   }
 }
 
