@@ -487,6 +487,44 @@ TEST(OwnBlends, OfOneElementAreItsSumOfTheDefinition)
   }
 }
 
+// But for rounding, also where more groups reach a batch than are handled together.
+TEST(BlendSums, DoNotDependOnWhichPointsAreAskedForTogether)
+{
+  Random random(16);
+  GroupedElements elements = tangle(random, 60);
+  for (Vec3& point : elements.points)
+  {
+    point *= 0.3;
+  }
+  for (const ConvolutionKernel& kernel : { kQuadratic, kCauchy })
+  {
+    const BlendedField field(kernel, { BlendingKind::Neighbours, 0.7 }, elements);
+    const BlendedField all(kernel, { BlendingKind::All }, elements);
+    const PointList points = randomPoints(random, around(elements), 120);
+    BlendSelection selection;
+    field.select(around(elements), selection);
+    std::vector<double> value(points.size(), 0.0);
+    VectorList gradient(points.size());
+    const VectorBatch slopes = gradient;
+    field.addFieldAndGradient(&selection, points.batch(), value.data(), slopes);
+    int smaller = 0;
+    for (std::size_t k = 0; k < points.size(); ++k)
+    {
+      const Vec3& p = points[k];
+      double alone = 0.0;
+      Vec3 slope = Vec3::Zero();
+      field.addFieldAndGradient(
+        nullptr, { &p.x(), &p.y(), &p.z(), 1 }, &alone, { &slope.x(), &slope.y(), &slope.z() });
+      ASSERT_NEAR(value[k], alone, 1e-12 * (1.0 + alone));
+      ASSERT_LT((slopes[k] - slope).norm(), 1e-9 * (1.0 + slope.norm()));
+      double sum = 0.0;
+      all.addField(nullptr, { &p.x(), &p.y(), &p.z(), 1 }, &sum);
+      smaller += alone < 0.99 * sum;
+    }
+    EXPECT_GT(smaller, 20);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Controls, BlendSumsCases,
   testing::Values(Case{ { BlendingKind::Neighbours, 0.5 }, kQuadratic },
     Case{ { BlendingKind::Neighbours, 1.0 }, kCubic },
