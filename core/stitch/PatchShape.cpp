@@ -6,6 +6,7 @@
 #include "core/stitch/DropRemoved.h"
 #include "core/stitch/ProjectPoints.h"
 #include "core/stitch/TriangleShape.h"
+#include "core/stitch/UnfoldPatch.h"
 
 #include <algorithm>
 #include <cmath>
@@ -63,6 +64,7 @@ public:
     {
       this->mendAll();
     }
+    this->unfoldAll();
     dropRemoved(links_, touched_, static_cast<std::size_t>(firstOwn_), mesh_, onCrease_);
   }
 
@@ -119,6 +121,24 @@ private:
       {
         return;
       }
+    }
+  }
+
+  void unfoldAll()
+  {
+    const std::vector<std::size_t> changed =
+      unfoldTriangles(links_, mesh_, static_cast<std::size_t>(firstOwn_), onCrease_, cellSize_);
+    for (const std::size_t t : changed)
+    {
+      this->change(static_cast<Index>(t));
+      for (int k = 0; k < 3 && !links_.isRemoved(t); ++k)
+      {
+        this->awaken(links_.triangle(t)[k]);
+      }
+    }
+    if (!changed.empty())
+    {
+      this->mendAll();
     }
   }
 

@@ -12,7 +12,8 @@ namespace hybridtree
 
 /// Gives the triangles of an island a better shape: collapses short sides of slivers, flips edges
 /// and moves points along the surface, where that makes the smallest angles larger. Triangles that
-/// are turned over go too, if they can.
+/// are turned over go too, if they can, at last by steps that pass through worse ones
+/// (UnfoldPatch.h).
 ///
 /// Points before `keptPoints` stay; the others may move or go. What a collapse takes away lies
 /// within 5 % of a cell of what replaces it, and points at creases do not move, so creases stay. A

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace hybridtree::test
@@ -75,6 +76,60 @@ TEST(PatchShape, MendsTurnedTriangles)
     }
     EXPECT_NEAR(area, std::pow(kSide * kStep, 2), 1e-9);
     EXPECT_EQ(onCrease.size(), mesh.points.size());
+  }
+}
+
+/// Puts a small polygon into a triangle, below a point that is kept: one of its corners is a notch
+/// on the wrong side of the others, and the point of its fan lies outside of it.
+void notch(std::size_t t, Random& random, TriangleMesh& mesh)
+{
+  const auto [a, b, c] = mesh.triangles[t];
+  const Vec3 center = (mesh.points[a] + mesh.points[b] + mesh.points[c]) / 3.0;
+  const Vec3 along = (mesh.points[b] - mesh.points[a]).normalized();
+  const Vec3 across = Vec3::UnitZ().cross(along);
+  const auto kept = static_cast<std::int32_t>(mesh.points.size());
+  const auto add = [&](double x, double y)
+  { mesh.points.push_back(center + 0.01 * (x * along + y * across)); };
+  add(0.0, 0.0);
+  add(random.uniform(1.0, 1.5), -0.5);                        // right,
+  add(random.uniform(-0.5, 0.5), random.uniform(-1.3, -0.9)); // notch and
+  add(random.uniform(-1.5, -1.0), -0.5);                      // left of it,
+  add(random.uniform(-0.7, 0.7), random.uniform(0.5, 3.0));   // and the point of the fan
+  mesh.normals.resize(mesh.points.size(), Vec3::UnitZ());
+  const std::int32_t right = kept + 1, low = kept + 2, left = kept + 3, middle = kept + 4;
+  mesh.triangles[t] = { b, c, kept };
+  for (const Triangle& more : { Triangle{ c, a, kept }, { kept, a, left }, { kept, left, low },
+         { kept, low, right }, { kept, right, b }, { a, b, right }, { a, right, left },
+         { left, right, middle }, { right, low, middle }, { low, left, middle } })
+  {
+    mesh.triangles.push_back(more);
+  }
+}
+
+/// Every single collapse or flip there leaves a triangle turned, or is none that keeps a manifold.
+TEST(PatchShape, UnfoldsInSeveralSteps)
+{
+  const FunctionField below([](const Vec3& p) { return kThreshold - p.z(); }, 1.0);
+  Random random(23);
+  for (int trial = 0; trial < 50; ++trial)
+  {
+    TriangleMesh mesh = plane();
+    const auto kept = mesh.points.size() + 1; // that of the notch, too
+    notch(static_cast<std::size_t>(random.integer(40, 60)), random, mesh);
+    mesh.sourceLeaf.assign(mesh.triangles.size(), -1);
+    ASSERT_GE(turnedTriangles(mesh).size(), 2u);
+    const std::vector<Vec3> before(mesh.points.begin(), mesh.points.begin() + std::ptrdiff_t(kept));
+    std::vector<bool> onCrease(mesh.points.size(), false);
+    improveShapes(below, mesh, kept, onCrease, kCell);
+    EXPECT_TRUE(std::equal(before.begin(), before.end(), mesh.points.begin()));
+    double area = 0.0;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    {
+      const Vec3 normal = areaNormal(mesh, t);
+      EXPECT_GE(normal.z(), 0.0);
+      area += 0.5 * normal.norm();
+    }
+    EXPECT_NEAR(area, std::pow(kSide * kStep, 2), 1e-9);
   }
 }
 
