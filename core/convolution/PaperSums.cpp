@@ -120,6 +120,9 @@ PaperSums::PaperSums(const GroupedElements& elements, const ConvolutionField& wh
 {
   ElementSelection all;
   whole.select(whole.influenceBounds(), all);
+  // In the order in which they are stored, so that sums do not change with the rest of a skeleton.
+  std::sort(all.segments.begin(), all.segments.end());
+  std::sort(all.triangles.begin(), all.triangles.end());
   segments_ = sortByGroups(all.segments, elements.groups.size(),
     [&](const SegmentElement* element) { return elements.segments[whole.index(element)].group; });
   triangles_ = sortByGroups(all.triangles, elements.groups.size(),

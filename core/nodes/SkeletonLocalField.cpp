@@ -31,6 +31,23 @@ void makeUnique(std::vector<const Element*>& elements)
   elements.erase(std::unique(elements.begin(), elements.end()), elements.end());
 }
 
+struct Corners
+{
+  const std::int32_t* first;
+  std::size_t count;
+
+  const std::int32_t* begin() const { return first; }
+  const std::int32_t* end() const { return first + count; }
+};
+
+/// Of a coarse element: a segment, or a triangle behind all of those.
+Corners cornersOf(const SkeletonGraph& coarse, std::size_t element)
+{
+  const std::size_t segments = coarse.segments.size();
+  return element < segments ? Corners{ coarse.segments[element].data(), 2 }
+                            : Corners{ coarse.triangles[element - segments].data(), 3 };
+}
+
 } // namespace
 
 bool SkeletonLocalField::isLocal() const
@@ -99,6 +116,34 @@ void SkeletonLocalField::addElements(const std::vector<Box3>& boxes, Contents& c
   leaf_.convolution().describeBlending(boxes, contents);
 }
 
+void SkeletonLocalField::addChildren(std::size_t element, Contents& contents) const
+{
+  const RefinedSkeleton& refined = leaf_.refined();
+  const std::size_t segments = leaf_.coarse().segments.size();
+  const auto add = [&](const auto& children, std::size_t parts, std::size_t parent)
+  {
+    for (std::size_t k = parent * parts; k < (parent + 1) * parts; ++k)
+    {
+      for (const std::int32_t corner : children[k])
+      {
+        this->addPoint(corner, contents);
+      }
+    }
+  };
+  const int level = leaf_.options().level;
+  contents.add(static_cast<std::uint64_t>(element));
+  if (element < segments)
+  {
+    contents.add(leaf_.pieces().segments[element]);
+    add(refined.segments, std::size_t(1) << level, element);
+  }
+  else
+  {
+    contents.add(leaf_.pieces().triangles[element - segments]);
+    add(refined.triangles, std::size_t(1) << (2 * level), element - segments);
+  }
+}
+
 const Dependency& SkeletonLocalField::whole() const
 {
   std::call_once(wholeOnce_,
@@ -141,6 +186,37 @@ Dependency SkeletonLocalField::around(const std::vector<Box3>& boxes) const
   Contents contents;
   this->addOptions(contents);
   this->addElements(boxes, contents);
+  return dependencyOn(std::move(contents));
+}
+
+Dependency SkeletonLocalField::ownSums(
+  const std::vector<std::int32_t>& elements, const std::vector<Box3>& boxes) const
+{
+  if (leaf_.options().blending.kind != BlendingKind::Paper)
+  {
+    return this->around(boxes);
+  }
+  const SkeletonGraph& coarse = leaf_.coarse();
+  std::vector<char> isOwn(coarse.points.size(), 0);
+  for (const std::int32_t element : elements)
+  {
+    for (const std::int32_t corner : cornersOf(coarse, static_cast<std::size_t>(element)))
+    {
+      isOwn[static_cast<std::size_t>(corner)] = 1;
+    }
+  }
+  Contents contents;
+  this->addOptions(contents);
+  for (std::size_t element = 0; element < coarse.segments.size() + coarse.triangles.size();
+       ++element)
+  {
+    const Corners corners = cornersOf(coarse, element);
+    if (std::any_of(corners.begin(), corners.end(),
+          [&](std::int32_t corner) { return isOwn[static_cast<std::size_t>(corner)] != 0; }))
+    {
+      this->addChildren(element, contents);
+    }
+  }
   return dependencyOn(std::move(contents));
 }
 

@@ -15,7 +15,9 @@ namespace hybridtree
 ///
 /// With the compact kernel a place depends on the elements that reach it, and where neighbours
 /// blend on how far these are from each other along the skeleton. The Cauchy kernel reaches
-/// everywhere and the sums of [SUB] ask for more: there every place depends on the whole skeleton.
+/// everywhere and the largest sum of [SUB] asks for more: there every place depends on the whole
+/// skeleton. The sum of one element in [SUB] depends on the elements that share a corner with it,
+/// with any kernel.
 class SkeletonLocalField final : public LocalField
 {
 public:
@@ -23,6 +25,8 @@ public:
   explicit SkeletonLocalField(const SubdivisionSkeleton& leaf) : leaf_(leaf) {}
 
   Dependency around(const std::vector<Box3>& boxes) const override;
+  Dependency ownSums(
+    const std::vector<std::int32_t>& elements, const std::vector<Box3>& boxes) const override;
   Near near(const std::vector<Box3>& boxes) const override;
   /// The nearest piece of the skeleton.
   void findSources(TriangleMesh& island, const Progress& progress) const override;
@@ -31,6 +35,7 @@ private:
   bool isLocal() const;
   void addOptions(Contents& contents) const;
   void addElements(const std::vector<Box3>& boxes, Contents& contents) const;
+  void addChildren(std::size_t element, Contents& contents) const;
   void addPoint(std::int32_t point, Contents& contents) const;
   const Dependency& whole() const;
 

@@ -44,15 +44,15 @@ public:
 
   PieceKey ofCurve(const CurvePiece& piece) const
   {
-    PieceKey key = this->of(piece.segments, skeleton_.refined.segments, 1 << skeleton_.level);
+    PieceKey key = this->of(piece.segments, skeleton_.refined.segments, 1 << skeleton_.level, 0);
     key.own.add(std::int32_t(piece.closed));
     return key;
   }
 
   PieceKey ofSurface(const SurfacePiece& piece) const
   {
-    PieceKey key =
-      this->of(piece.triangles, skeleton_.refined.triangles, 1 << (2 * skeleton_.level));
+    PieceKey key = this->of(piece.triangles, skeleton_.refined.triangles,
+      1 << (2 * skeleton_.level), std::int32_t(skeleton_.coarse.segments.size()));
     key.own.add(std::int32_t(-1));
     return key;
   }
@@ -60,7 +60,7 @@ public:
 private:
   template <std::size_t N>
   PieceKey of(const std::vector<std::int32_t>& own,
-    const std::vector<std::array<std::int32_t, N>>& elements, int parts) const
+    const std::vector<std::array<std::int32_t, N>>& elements, int parts, std::int32_t first) const
   {
     PieceKey key;
     key.own.add(std::int32_t(skeleton_.elements ? 1 + int(skeleton_.elements->areOwnSums()) : 0));
@@ -68,12 +68,17 @@ private:
     key.own.add(options_.longestEdge);
     key.own.add(std::int32_t(options_.findSources));
     std::vector<Box3> boxes;
+    std::vector<std::int32_t> places;
     for (const std::int32_t coarse : own)
     {
       key.own.add(coarse);
+      places.push_back(first + coarse);
       boxes.push_back(surroundings(skeleton_.refined, elements, coarse, parts));
     }
-    key.field.push_back(skeleton_.local->around(boxes));
+    const bool areOwnSums =
+      skeleton_.elements && skeleton_.elements->areOwnSums() && !options_.findSources;
+    key.field.push_back(
+      areOwnSums ? skeleton_.local->ownSums(places, boxes) : skeleton_.local->around(boxes));
     return key;
   }
 

@@ -4,6 +4,7 @@
 #include "core/base/Error.h"
 #include "core/mesh/MeshChecks.h"
 #include "core/mesh/MeshDistance.h"
+#include "core/nodes/SkeletonElementFields.h"
 #include "tests/core/subdivision/SkeletonFieldCase.h"
 #include "tests/support/Random.h"
 #include "tests/support/SkeletonShapes.h"
@@ -283,6 +284,51 @@ TEST(PieceMeshCache, AfterAnEditOnlyPiecesInReachAreMadeAndTheResultIsThatOfACol
     }
     EXPECT_GT(kept, warm.size() / 2);
     EXPECT_LT(kept, warm.size());
+  }
+}
+
+// As the preview has it where elements blend with their immediate neighbours: with any kernel an
+// edit reaches no farther than these.
+TEST(PieceMeshCache, SumsOfElementsAreKeptByTheElementsThatTouchThem)
+{
+  for (const KernelKind kernel : { KernelKind::Compact, KernelKind::Cauchy })
+  {
+    SubdivisionSkeletonOptions options;
+    options.level = 1;
+    options.kernel.kind = kernel;
+    options.blending.kind = BlendingKind::Paper;
+    SkeletonGraph graph = test::alien();
+    PieceMeshCache cache;
+    std::vector<PieceMeshPtr> before;
+    test::Random random(5);
+    std::size_t kept = 0;
+    constexpr int kEdits = 12;
+    for (int edit = 0; edit <= kEdits; ++edit)
+    {
+      const NodePtr node = makeSubdivisionSkeleton(graph, options);
+      const auto& leaf = static_cast<const SubdivisionSkeleton&>(*node);
+      const SkeletonElementFields elements(leaf, SkeletonElementFields::Sums::Own);
+      const SkeletonLocalField local(leaf);
+      const SkeletonField field{ leaf.coarse(), leaf.refined(), options.level, leaf, &elements,
+        false, &local };
+      const std::vector<PieceMeshPtr> warm = pieceMeshes(field, {}, &cache);
+      const std::vector<PieceMeshPtr> cold = pieceMeshes(field, {});
+      ASSERT_EQ(warm.size(), cold.size());
+      for (std::size_t k = 0; k < warm.size(); ++k)
+      {
+        SCOPED_TRACE("edit " + std::to_string(edit) + ", piece " + std::to_string(k));
+        EXPECT_EQ(warm[k]->triangles, cold[k]->triangles);
+        EXPECT_EQ(warm[k]->points, cold[k]->points);
+        EXPECT_EQ(warm[k]->normals, cold[k]->normals);
+        kept += edit > 0 && warm[k] == before[k] ? 1 : 0;
+      }
+      before = warm;
+      const int last = static_cast<int>(graph.points.size()) - 1;
+      const auto point = static_cast<std::size_t>(random.integer(0, last));
+      graph.points[point] += random.uniform(0.0, 0.1) * random.direction();
+    }
+    EXPECT_GT(kept, kEdits * before.size() / 2);
+    EXPECT_LT(kept, kEdits * before.size());
   }
 }
 
