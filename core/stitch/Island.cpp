@@ -72,7 +72,8 @@ public:
     mendNormals(island_.mesh);
     this->sharpen(patch, faceted);
     onCrease_.resize(island_.mesh.points.size(), true); // those that were added
-    improveShapes(field_, island_.mesh, island_.rim.size(), onCrease_, options_.grid.cellSize);
+    improveShapes(field_, island_.mesh, island_.rim.size(), onCrease_, options_.grid.cellSize,
+      options_.unfold ? Folds::Unfold : Folds::Stay);
     this->findFaults(patch);
     if (island_.faults.empty())
     {

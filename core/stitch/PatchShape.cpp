@@ -57,14 +57,17 @@ public:
   {
   }
 
-  void run()
+  void run(Folds folds)
   {
     this->mendAll();
     for (int round = 0; round < kMoves && this->moveAll(); ++round)
     {
       this->mendAll();
     }
-    this->unfoldAll();
+    if (folds == Folds::Unfold)
+    {
+      this->unfoldAll();
+    }
     dropRemoved(links_, touched_, static_cast<std::size_t>(firstOwn_), mesh_, onCrease_);
   }
 
@@ -447,11 +450,11 @@ private:
 } // namespace
 
 void improveShapes(const FieldSource& field, TriangleMesh& mesh, std::size_t keptPoints,
-  std::vector<bool>& onCrease, double cellSize)
+  std::vector<bool>& onCrease, double cellSize, Folds folds)
 {
   if (!mesh.triangles.empty())
   {
-    ShapeImprover(field, mesh, keptPoints, onCrease, cellSize).run();
+    ShapeImprover(field, mesh, keptPoints, onCrease, cellSize).run(folds);
   }
 }
 

@@ -33,6 +33,10 @@ struct StitchOptions
   int maxRounds = 4;
   /// Whether the surface may have creases, which are looked for in the patches.
   bool haveCreases = true;
+  /// Whether small folds in patches are taken out (UnfoldPatch.h). Elsewhere they are told as
+  /// faults, and more cells around them are done again: in trees of all kinds what folds is often
+  /// thinner than a cell, and lost by less than that.
+  bool unfold = false;
 };
 
 struct StitchedMesh

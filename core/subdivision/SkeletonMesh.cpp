@@ -163,6 +163,7 @@ std::optional<StitchedMesh> skeletonMesh(const SkeletonField& skeleton,
   stitching.grid = CellGrid::ofLevel(options.edgeLength, 1);
   stitching.maxBytes = options.maxBytes;
   stitching.haveCreases = !skeleton.isSmooth;
+  stitching.unfold = true;
   CellSet cells = cellsWherePiecesMeet(pieces, skeleton, options.refinement, stitching.grid);
   std::vector<KeptPart> parts;
   for (const PieceMeshPtr& piece : pieces)

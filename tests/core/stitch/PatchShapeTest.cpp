@@ -66,7 +66,7 @@ TEST(PatchShape, MendsTurnedTriangles)
     mesh.sourceLeaf.assign(mesh.triangles.size(), -1);
     ASSERT_EQ(turnedTriangles(mesh).size(), 1u);
     std::vector<bool> onCrease(mesh.points.size(), false);
-    improveShapes(below, mesh, 0, onCrease, kCell);
+    improveShapes(below, mesh, 0, onCrease, kCell, Folds::Unfold);
     double area = 0.0;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     {
@@ -120,7 +120,7 @@ TEST(PatchShape, UnfoldsInSeveralSteps)
     ASSERT_GE(turnedTriangles(mesh).size(), 2u);
     const std::vector<Vec3> before(mesh.points.begin(), mesh.points.begin() + std::ptrdiff_t(kept));
     std::vector<bool> onCrease(mesh.points.size(), false);
-    improveShapes(below, mesh, kept, onCrease, kCell);
+    improveShapes(below, mesh, kept, onCrease, kCell, Folds::Unfold);
     EXPECT_TRUE(std::equal(before.begin(), before.end(), mesh.points.begin()));
     double area = 0.0;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
