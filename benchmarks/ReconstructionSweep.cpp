@@ -16,6 +16,7 @@
 // (thin) or before which (gap) the opposite side of the surface is nearer than two mean distances
 // between points. Such places may be beyond what the points tell.
 
+#include "benchmarks/support/OffFile.h"
 #include "benchmarks/support/PeerReconstructions.h"
 #include "core/mesh/MeshChecks.h"
 #include "core/mesh/RepairMesh.h"
@@ -31,9 +32,8 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
 #include <limits>
-#include <sstream>
+#include <memory>
 #include <string>
 
 namespace
@@ -42,47 +42,6 @@ namespace
 using namespace hybridtree;
 using namespace hybridtree::benchmark;
 using namespace hybridtree::test;
-
-bool readOff(const std::string& file, std::vector<Vec3>& points, std::vector<Triangle>& triangles)
-{
-  std::ifstream stream(file);
-  std::string text;
-  for (std::string line; std::getline(stream, line);)
-  {
-    text += line.substr(0, line.find('#')) + "\n";
-  }
-  std::istringstream words(text);
-  std::string magic;
-  std::size_t pointCount = 0;
-  std::size_t faceCount = 0;
-  std::size_t edgeCount = 0;
-  if (!(words >> magic >> pointCount >> faceCount >> edgeCount) || magic != "OFF")
-  {
-    return false;
-  }
-  points.resize(pointCount);
-  for (Vec3& p : points)
-  {
-    words >> p.x() >> p.y() >> p.z();
-  }
-  std::string line;
-  for (std::size_t f = 0; f < faceCount && words >> std::ws && std::getline(words, line); ++f)
-  {
-    std::istringstream face(line); // colours may follow
-    std::size_t corners = 0;
-    face >> corners;
-    std::vector<std::int32_t> v(corners);
-    for (std::int32_t& corner : v)
-    {
-      face >> corner;
-    }
-    for (std::size_t k = 2; k < corners; ++k)
-    {
-      triangles.push_back({ v[0], v[k - 1], v[k] });
-    }
-  }
-  return !points.empty() && !triangles.empty();
-}
 
 // Distance along a ray to the next triangle that faces against its origin's normal.
 double oppositeSide(
@@ -308,14 +267,13 @@ int main(int argc, char** argv)
       }
       continue;
     }
-    std::vector<Vec3> points;
-    std::vector<Triangle> triangles;
-    if (!readOff(argv[k], points, triangles))
+    const std::unique_ptr<TriangleMesh> read = readOff(argv[k]);
+    if (!read || read->empty())
     {
       std::printf("%s: not read\n", argv[k]);
       continue;
     }
-    const RepairedMesh repaired = repairMesh(points, triangles);
+    const RepairedMesh repaired = repairMesh(read->points, read->triangles);
     const MeshReport report = checkMesh(*repaired.mesh);
     if (!report.closedManifold())
     {
