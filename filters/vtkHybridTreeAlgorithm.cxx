@@ -325,9 +325,12 @@ void vtkHybridTreeAlgorithm::WriteOutput(
 //------------------------------------------------------------------------------
 void vtkHybridTreeAlgorithm::WarnOfLostShape(const hybridtree::TriangleMesh& mesh)
 {
+  if (!mesh.triangles.empty() || this->Internals->Node->isNegative())
+  {
+    return; // before its bounds are looked for, which can take longer than the mesh
+  }
   const hybridtree::Box3 box = this->Internals->Node->surfaceBounds();
-  if (mesh.triangles.empty() && !this->Internals->Node->isNegative() && !box.isEmpty() &&
-    2.0 * this->EdgeLength > box.diagonal().norm())
+  if (!box.isEmpty() && 2.0 * this->EdgeLength > box.diagonal().norm())
   {
     this->Warn({ "The shape has no triangles, as EdgeLength is too long for it: its bounds have a "
                  "diagonal of " +
