@@ -51,6 +51,21 @@ void fold(std::size_t t, double beyond, TriangleMesh& mesh)
   mesh.triangles.push_back({ c, a, m });
 }
 
+/// Upward, of the triangle where that is least, of twice its area; all of them cover the plane.
+double leastUpward(const TriangleMesh& mesh)
+{
+  double area = 0.0;
+  double least = kStep;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+  {
+    const Vec3 normal = areaNormal(mesh, t);
+    least = std::min(least, normal.z());
+    area += 0.5 * normal.norm();
+  }
+  EXPECT_NEAR(area, std::pow(kSide * kStep, 2), 1e-9);
+  return least;
+}
+
 /// Their angles are none too small; but where they stay, the patch is made anew.
 TEST(PatchShape, MendsTurnedTriangles)
 {
@@ -66,15 +81,8 @@ TEST(PatchShape, MendsTurnedTriangles)
     mesh.sourceLeaf.assign(mesh.triangles.size(), -1);
     ASSERT_EQ(turnedTriangles(mesh).size(), 1u);
     std::vector<bool> onCrease(mesh.points.size(), false);
-    improveShapes(below, mesh, 0, onCrease, kCell, Folds::Unfold);
-    double area = 0.0;
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    {
-      const Vec3 normal = areaNormal(mesh, t);
-      EXPECT_GT(normal.z(), 0.0);
-      area += 0.5 * normal.norm();
-    }
-    EXPECT_NEAR(area, std::pow(kSide * kStep, 2), 1e-9);
+    improveShapes(below, mesh, 0, onCrease, kCell, Folds::Stay);
+    EXPECT_GT(leastUpward(mesh), 0.0);
     EXPECT_EQ(onCrease.size(), mesh.points.size());
   }
 }
@@ -122,14 +130,7 @@ TEST(PatchShape, UnfoldsInSeveralSteps)
     std::vector<bool> onCrease(mesh.points.size(), false);
     improveShapes(below, mesh, kept, onCrease, kCell, Folds::Unfold);
     EXPECT_TRUE(std::equal(before.begin(), before.end(), mesh.points.begin()));
-    double area = 0.0;
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    {
-      const Vec3 normal = areaNormal(mesh, t);
-      EXPECT_GE(normal.z(), 0.0);
-      area += 0.5 * normal.norm();
-    }
-    EXPECT_NEAR(area, std::pow(kSide * kStep, 2), 1e-9);
+    EXPECT_GE(leastUpward(mesh), 0.0);
   }
 }
 
