@@ -26,6 +26,7 @@
 #include "vtkStringArray.h"
 
 #include <algorithm>
+#include <sstream>
 
 vtkInformationKeyMacro(vtkHybridTreeAlgorithm, TAKES_TREE, Integer);
 
@@ -71,6 +72,18 @@ void reuseArrays(std::vector<vtkSmartPointer<vtkDataArray>>& last, vtkFieldData*
     data->AddArray(arrays.back()); // in the place of its namesake
   }
   last.swap(arrays);
+}
+
+/// A warning with its numbers taken out, which change with every step of a drag or an animation.
+std::string withoutNumbers(const std::string& text)
+{
+  std::istringstream words(text);
+  std::string plain;
+  for (std::string word; words >> word;)
+  {
+    plain += word.find_first_of("0123456789") == std::string::npos ? word + ' ' : "# ";
+  }
+  return plain;
 }
 
 } // namespace
@@ -369,17 +382,21 @@ void vtkHybridTreeAlgorithm::FillOtherOutputs(vtkInformationVector*) {}
 //------------------------------------------------------------------------------
 void vtkHybridTreeAlgorithm::Warn(const std::vector<std::string>& warnings)
 {
-  const auto contains = [](const std::vector<std::string>& list, const std::string& text)
-  { return std::find(list.begin(), list.end(), text) != list.end(); };
   State& state = *this->Internals;
+  const auto toldBefore = [&](const std::string& warning)
+  {
+    return std::any_of(state.ToldBefore.begin(), state.ToldBefore.end(),
+      [plain = withoutNumbers(warning)](const std::string& told)
+      { return withoutNumbers(told) == plain; });
+  };
   for (const std::string& warning : warnings)
   {
-    if (contains(state.Told, warning))
+    if (std::find(state.Told.begin(), state.Told.end(), warning) != state.Told.end())
     {
       continue;
     }
     state.Told.push_back(warning);
-    if (!contains(state.ToldBefore, warning)) // dragging would tell it again at every step
+    if (!toldBefore(warning)) // dragging would tell it again at every step
     {
       vtkWarningMacro(<< warning);
     }

@@ -342,6 +342,29 @@ TEST(BadInput, OpenAndCrowdedMeshesAreToldOnce)
   }
 }
 
+// In an animation the number in the message is another at each step.
+TEST(BadInput, AWarningThatChangesOnlyItsNumbersIsToldOnce)
+{
+  vtkNew<vtkHybridTreeBox> box;
+  box->SetLengths(8.0, 8.0, 1.0);
+  vtkNew<vtkHybridTreeBend> bend;
+  bend->SetInputConnection(box->GetOutputPort());
+  Messages messages(bend);
+  bend->SetAngle(120.0);
+  bend->Update();
+  EXPECT_NE(messages.warnings.find("centre line"), std::string::npos) << messages.warnings;
+  messages.warnings.clear();
+  bend->SetAngle(121.0);
+  bend->Update();
+  EXPECT_EQ(messages.warnings, "");
+  bend->SetAngle(1.0);
+  bend->Update();
+  EXPECT_EQ(messages.warnings, "");
+  bend->SetAngle(120.0);
+  bend->Update();
+  EXPECT_NE(messages.warnings, "") << "it had been mended in between";
+}
+
 TEST(BadInput, CellsOfPointsThatDoNotExist)
 {
   for (const vtkIdType bad : { vtkIdType(-1), vtkIdType(4), vtkIdType(1) << 32 })
