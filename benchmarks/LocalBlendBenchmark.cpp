@@ -7,19 +7,20 @@
 //   Embree,
 //     without bound and within R (a share of its layers, scaled up);
 //   - 50 successive edits of one small primitive beside the first polygonization.
-// With a file name: times of 1,000 random pairs of balls over their overlap ratio (Fig. 15), as
-// CSV.
+// As "pairs": whether the automatic method takes the faster way on random shapes, by default 1,000
+// pairs of balls (Fig. 15); a table of times over overlap ratios as CSV, and a tally.
 //
 //   LocalBlendBenchmark [threads, default 2] [rounds, default 5]
 //   LocalBlendBenchmark methods [threads] [rounds]
 //     the methods alone
-//   LocalBlendBenchmark pairs FILE [pairs, default 1000] [rounds, default 5]
+//   LocalBlendBenchmark pairs FILE [pairs, default 1000] [rounds, default 5] [balls, primitives,
+//     meshes or warps, default balls]
 //   LocalBlendBenchmark edits|global|node-based|primitive-based|automatic [threads] [rounds]
 //     one of them alone, for a profiler
 #include "benchmarks/support/BenchmarkMesh.h"
+#include "benchmarks/support/BlendPairs.h"
 #include "benchmarks/support/EmbreeDistance.h"
 #include "core/base/Parallel.h"
-#include "core/geometry/BoxUnion.h"
 #include "core/mesh/MeshChecks.h"
 #include "core/nodes/BlendMesh.h"
 #include "core/nodes/MeshNode.h"
@@ -34,7 +35,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
-#include <fstream>
 #include <functional>
 #include <limits>
 #include <string>
@@ -316,81 +316,20 @@ void table3(int threads, int rounds, bool all)
     kGrid, unbounded, unbounded / local);
 }
 
-/// Two balls as in Fig. 15.
-struct Pair
-{
-  NodePtr a;
-  NodePtr b;
-
-  explicit Pair(test::Random& random)
-  {
-    const auto ball = [](const Vec3& center, double radius)
-    {
-      return makePrimitive(std::make_shared<PointSkeleton>(center),
-        Potential::bySurfaceRadius(radius, 1.5 * radius, 2));
-    };
-    const double radius = random.uniform(0.25, 0.5);
-    a = ball(Vec3::Zero(), 0.5);
-    b = ball(random.uniform(0.0, 1.6) * random.direction(), radius);
-  }
-
-  double ratio() const { return overlapRatio(b->influenceBounds(), { a->influenceBounds() }); }
-
-  /// New leaves each time: their direct meshes are part of the work.
-  void mesh(BlendMethod method, double edge) const
-  {
-    const Affine3 map(Eigen::Translation3d(1e-9, 0, 0));
-    makeBlend({ a->affine(map), b->affine(map) }, { method, 1.0 })->mesh(edge);
-  }
-
-  BlendMeshReport report(BlendMethod method, double edge) const
-  {
-    BlendMeshReport report;
-    const NodePtr node = makeBlend({ a, b }, { method, 1.0 });
-    blendMesh(*node, { { a.get(), 0 }, { b.get(), 1 } }, { method, 1.0 }, edge, report);
-    return report;
-  }
-};
-
-/// Processor times in turns, medians; and what the estimate of costs counts.
-void pairs(const char* file, int count, int rounds)
-{
-  setThreadCount(1);
-  std::ofstream csv(file);
-  csv << "ratio,global,nodeBased,automatic,local,cells,border,kept,cut,made,samples\n";
-  test::Random random(15);
-  const double edge = 0.02;
-  const std::array<BlendMethod, 3> methods = { BlendMethod::Global, BlendMethod::NodeBased,
-    BlendMethod::Automatic };
-  for (int k = 0; k < count; ++k)
-  {
-    const Pair pair(random);
-    std::array<std::vector<double>, 3> times;
-    for (int round = 0; round < rounds; ++round)
-    {
-      for (std::size_t m = 0; m < methods.size(); ++m)
-      {
-        forgetBlends();
-        times[m].push_back(processorSeconds([&] { pair.mesh(methods[m], edge); }));
-      }
-    }
-    const BlendMeshReport local = pair.report(BlendMethod::NodeBased, edge);
-    const bool isGlobal = pair.report(BlendMethod::Automatic, edge).method == BlendMethod::Global;
-    csv << pair.ratio() << ',' << median(times[0]) << ',' << median(times[1]) << ','
-        << median(times[2]) << ',' << (isGlobal ? 0 : 1) << ',' << local.markedCells << ','
-        << local.borderCells << ',' << local.keptTriangles << ',' << local.cutTriangles << ','
-        << local.newTriangles << ',' << pair.report(BlendMethod::Global, edge).samplePoints << '\n';
-  }
-}
-
 } // namespace
 
 int main(int argc, char** argv)
 {
   if (argc > 2 && std::string(argv[1]) == "pairs")
   {
-    pairs(argv[2], argc > 3 ? std::atoi(argv[3]) : 1000, argc > 4 ? std::atoi(argv[4]) : 5);
-    return 0;
+    const std::string kind = argc > 5 ? argv[5] : "balls";
+    const bool isKnown = benchmark::compareOnPairs(
+      argv[2], argc > 3 ? std::atoi(argv[3]) : 1000, argc > 4 ? std::atoi(argv[4]) : 5, kind);
+    if (!isKnown)
+    {
+      std::printf("There is no kind %s.\n", kind.c_str());
+    }
+    return isKnown ? 0 : 1;
   }
   if (argc > 1 && std::string(argv[1]) == "methods")
   {
