@@ -10,7 +10,7 @@ import sys
 
 WIDTH, HEIGHT = 720, 440
 LEFT, RIGHT, TOP, BOTTOM = 70, 20, 50, 60
-SERIES = (("global", "Global", "#1f77b4"), ("nodeBased", "Node-based", "#d62728"), ("automatic", "Automatic", "#2ca02c"))
+SERIES = (("global", "Global", "#1f77b4"), ("local", "Node-based", "#d62728"), ("automatic", "Automatic", "#2ca02c"))
 
 
 def median(values):

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/nodes/MarkedCells.h"
 
-#include "core/base/Dependency.h"
 #include "core/base/Parallel.h"
-#include "core/base/RecentStore.h"
+#include "core/nodes/MarkMemory.h"
 
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 namespace hybridtree
 {
@@ -21,7 +22,13 @@ constexpr double kBytesPerBrick = 20000.0;
 constexpr std::int64_t kUnit = 4 * kBrickSide;
 constexpr std::size_t kLevels = 5; // of halving it down to cells
 static_assert(kUnit >> kLevels == 1, "a unit is halved down to cells");
-constexpr std::size_t kRememberedBytes = std::size_t(32) << 20;
+
+// Where the search may end early, one in eight blocks of this many cells is looked at first: the
+// count is the more certain the larger, and where it tells that there are far too many, not even
+// as many as allowed are looked for.
+constexpr std::int64_t kSampledBlock = 4;
+constexpr std::size_t kSampledShare = 8;
+constexpr std::size_t kFarTooMany = 2;
 
 // A surface is looked for down to blocks of this many cells, and a bit beyond: meshes are off the
 // surfaces they stand for.
@@ -57,43 +64,6 @@ struct Search
   CellSet cells; ///< the marks
 };
 
-/// All that the marks in one unit depend on.
-struct UnitKey
-{
-  CellGrid grid;
-  Index3 low{};
-  int interaction = 0;
-  std::vector<Dependency> terms;
-
-  bool operator==(const UnitKey& other) const
-  {
-    return grid == other.grid && low == other.low && interaction == other.interaction &&
-      terms == other.terms;
-  }
-
-  bool isExpired() const { return anyExpired(terms); }
-
-  std::uint64_t hash() const
-  {
-    HashSum sum;
-    sum.add(Index3Hash()(low));
-    for (const Dependency& term : terms)
-    {
-      term.addTo(sum);
-    }
-    return sum.value();
-  }
-};
-
-using UnitMarks = std::vector<CellSet::Brick>;
-using UnitStore = RecentStore<UnitKey, UnitMarks>;
-
-UnitStore& store()
-{
-  static UnitStore* const instance = new UnitStore(kRememberedBytes); // outlives all statics
-  return *instance;
-}
-
 class Marker
 {
 public:
@@ -115,16 +85,12 @@ public:
     {
       this->collectUnits(std::move(root));
     }
+    if (this->seemFarTooMany())
+    {
+      return std::nullopt;
+    }
     std::vector<std::shared_ptr<const UnitMarks>> marks(units_.size());
-    parallelFor(units_.size(), 1,
-      [&](std::size_t begin, std::size_t end)
-      {
-        for (std::size_t k = begin; k < end; ++k)
-        {
-          progress_.check();
-          marks[k] = this->marksOf(std::move(units_[k]));
-        }
-      });
+    this->forEachUnit([&](std::size_t k) { marks[k] = this->marksOf(std::move(units_[k])); });
     if (this->areTooMany())
     {
       return std::nullopt;
@@ -217,34 +183,97 @@ private:
     }
   }
 
+  template <typename Body>
+  void forEachUnit(Body&& body)
+  {
+    parallelFor(units_.size(), 1,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t k = begin; k < end; ++k)
+        {
+          progress_.check();
+          body(k);
+        }
+      });
+  }
+
+  /// By some of the blocks. That it ends as soon as these suffice does not change the answer.
+  bool seemFarTooMany()
+  {
+    if (mostCells_ > std::numeric_limits<std::size_t>::max() / kFarTooMany)
+    {
+      return false;
+    }
+    const std::size_t mostCells =
+      std::exchange(mostCells_, kFarTooMany * mostCells_ / kSampledShare);
+    sampling_ = true;
+    this->forEachUnit([&](std::size_t k) { this->sample(units_[k]); });
+    sampling_ = false;
+    const bool tooMany = this->areTooMany();
+    mostCells_ = mostCells;
+    count_ = 0;
+    return tooMany;
+  }
+
+  void sample(Block unit)
+  {
+    if (this->areTooMany())
+    {
+      return;
+    }
+    const UnitKey key = this->keyOf(unit);
+    if (const std::shared_ptr<const std::size_t> known = sampledCounts().find(key))
+    {
+      count_ += *known;
+      return;
+    }
+    Search search;
+    this->markUnit(unit, search);
+    if (!this->areTooMany())
+    {
+      sampledCounts().keep(key, std::make_shared<const std::size_t>(search.cells.size()),
+        sizeof key + key.terms.size() * sizeof(Dependency));
+    }
+  }
+
+  /// Evenly over planes, too.
+  static bool isSampled(const Block& block)
+  {
+    const std::int64_t place = block.low[0] + 3 * block.low[1] + 5 * block.low[2];
+    return place / kSampledBlock % std::int64_t(kSampledShare) == 0;
+  }
+
   void checkBudget(std::size_t bricks) const
   {
     const auto count = static_cast<double>(bricks);
     budget_.check(count * kBytesPerBrick, count * kBrickPoints);
   }
 
-  std::shared_ptr<const UnitMarks> marksOf(Block unit)
+  UnitKey keyOf(const Block& unit) const
   {
     UnitKey key{ grid_, unit.low, interaction_.kind(), {} };
-    for (Reach& reach : unit.reach)
+    for (const Reach& reach : unit.reach)
     {
       const MarkTerm& term = terms_[reach.term];
       key.terms.emplace_back(term.node->shared_from_this(), term.weight, term.kept ? 1 : 0);
-      reach.source = term.node;
     }
-    std::shared_ptr<const UnitMarks> marks = store().find(key);
+    return key;
+  }
+
+  std::shared_ptr<const UnitMarks> marksOf(Block unit)
+  {
+    const UnitKey key = this->keyOf(unit);
+    std::shared_ptr<const UnitMarks> marks = unitMarks().find(key);
     if (!marks)
     {
-      std::stable_partition(unit.reach.begin(), unit.reach.end(),
-        [&](const Reach& reach) { return !terms_[reach.term].node->isFaceted(); });
       Search search;
-      this->markBlock(unit, search, 0);
+      this->markUnit(unit, search);
       if (this->areTooMany())
       {
         return nullptr;
       }
       marks = std::make_shared<const UnitMarks>(search.cells.bricks());
-      store().keep(key, marks,
+      unitMarks().keep(key, marks,
         sizeof key + key.terms.size() * sizeof(Dependency) +
           marks->size() * sizeof(CellSet::Brick));
     }
@@ -391,10 +420,23 @@ private:
 
   bool areTooMany() const { return count_ > mostCells_; }
 
+  /// Those that are quick to ask first.
+  void markUnit(Block& unit, Search& search)
+  {
+    for (Reach& reach : unit.reach)
+    {
+      reach.source = terms_[reach.term].node;
+    }
+    std::stable_partition(unit.reach.begin(), unit.reach.end(),
+      [&](const Reach& reach) { return !terms_[reach.term].node->isFaceted(); });
+    this->markBlock(unit, search, 0);
+  }
+
   /// \param level of its children.
   void markBlock(Block& block, Search& search, std::size_t level)
   {
-    if (this->areTooMany())
+    if (this->areTooMany() ||
+      (sampling_ && block.side == kSampledBlock && !Marker::isSampled(block)))
     {
       return;
     }
@@ -429,7 +471,8 @@ private:
   const Interaction& interaction_;
   const CellGrid grid_;
   const MemoryBudget& budget_;
-  const std::size_t mostCells_;
+  std::size_t mostCells_;
+  bool sampling_ = false;
   const Progress& progress_;
   std::vector<Block> units_;
   std::atomic<std::size_t> count_{ 0 }; ///< of cells
@@ -447,7 +490,8 @@ std::optional<CellSet> markedCells(const std::vector<MarkTerm>& terms,
 
 void forgetMarks()
 {
-  store().clear();
+  unitMarks().clear();
+  sampledCounts().clear();
 }
 
 } // namespace hybridtree

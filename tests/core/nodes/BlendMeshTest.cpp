@@ -448,5 +448,35 @@ TEST(BlendMesh, IsTheSameForAnyNumberOfThreads)
   expectSame(*one.mesh, *three.mesh);
 }
 
+// Whatever was meshed before, and however many threads there are: the same way, the same mesh.
+TEST(BlendMesh, AutomaticChoosesByTheShapeAlone)
+{
+  std::array<int, 2> taken{};
+  Random random(11);
+  const NodePtr still = ball(Vec3::Zero(), 0.5, 0.75);
+  const NodePtr coarse = meshLeaf(icosphere(0.4, 2, Vec3(0.0, -1.2, 0.0)), 0.1);
+  for (int edit = 0; edit < 16; ++edit)
+  {
+    SCOPED_TRACE(edit);
+    std::vector<NodePtr> children{ still, ball(Vec3(1.25 - 0.03 * edit, 0, 0), 0.4, 0.6) };
+    if (edit % 4 == 3)
+    {
+      children.push_back(coarse);
+      children.push_back(ball(Vec3(0.0, -1.2, 0.0) + 0.4 * random.direction(), 0.2, 0.3));
+    }
+    setThreadCount(1);
+    const Made after = make(children, BlendMethod::Automatic, 0.02, 1.0);
+    setThreadCount(3);
+    forgetBlends();
+    const Made fresh = make(children, BlendMethod::Automatic, 0.02, 1.0);
+    EXPECT_EQ(after.report.method, fresh.report.method);
+    expectSame(*after.mesh, *fresh.mesh);
+    ++taken[fresh.report.method == BlendMethod::Global ? 0 : 1];
+  }
+  setThreadCount(0);
+  EXPECT_GT(taken[0], 2);
+  EXPECT_GT(taken[1], 2);
+}
+
 } // namespace
 } // namespace hybridtree::test
