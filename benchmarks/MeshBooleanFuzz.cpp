@@ -4,9 +4,11 @@
 // same measure for the peers.
 //
 //   MeshBooleanFuzz [-n placements, default 2000] [-c near ones, default 0] [-f first seed, default
-//     1] [-p placements that the peers get too, default 30] mesh.off ...
+//     1] [-p placements that the peers get too, default 30] [-k chains, default 0] [-r cuts in a
+//     chain, default 5] mesh.off ...
 //
-// Near ones (NearCases.h) nearly or exactly share faces, edges or points.
+// Near ones (NearCases.h) nearly or exactly share faces, edges or points. A chain begins with a
+// near one and goes on with a result and one of its operands, or that moved a little.
 //
 // Meshes that are open, no 2-manifold or (by CGAL) cross themselves are named and left out. In
 // Debian, meshes come with libcgal-demo:
@@ -122,7 +124,7 @@ struct Tally
   double seconds = 0.0;
 };
 
-void runOurs(const Placement& pair, std::uint64_t seed, Tally& tally)
+BooleanResults runOurs(const Placement& pair, std::uint64_t seed, Tally& tally)
 {
   const auto start = std::chrono::steady_clock::now();
   const BooleanResults results = allOperations(pair.a, pair.b);
@@ -141,6 +143,7 @@ void runOurs(const Placement& pair, std::uint64_t seed, Tally& tally)
       fault.c_str());
     std::fflush(stdout);
   }
+  return results;
 }
 
 // With points at one place made one, for peers that leave them double.
@@ -209,6 +212,7 @@ struct Tallies
   Tally hard;
   Tally random;
   Tally near;
+  Tally chained;
   std::vector<PeerTally> peers;
 };
 
@@ -238,22 +242,47 @@ void runPlacements(const Pool& pool, std::uint64_t first, std::uint64_t count,
   }
 }
 
-void runNearPlacements(const Pool& pool, std::uint64_t first, std::uint64_t count, Tally& tally)
+BooleanResults runPair(
+  const std::string& name, const NearPair& pair, std::uint64_t seed, Tally& tally)
+{
+  const Solid a(name, pair.a);
+  const Solid b(name, pair.b);
+  return runOurs({ name, a.mesh, b.mesh, [&](const Vec3& p) { return a.contains(p); },
+                   [&](const Vec3& p) { return b.contains(p); } },
+    seed, tally);
+}
+
+// A near placement, and as many cuts of what comes of it until there are `cuts`.
+void runNear(const Pool& pool, std::uint64_t seed, std::uint64_t cuts, Tally& tally)
 {
   const std::vector<NearCase> cases = nearCases();
+  Random random(seed);
+  const NearCase& near = cases[seed % cases.size()];
+  const Solid& first = anyOf(pool, random);
+  const Solid& second = anyOf(pool, random);
+  NearPair pair = near.make(random, first.mesh, second.mesh);
+  std::string name = near.name + ": " + first.name + " and " + second.name;
+  Tally each;
+  for (std::uint64_t cut = 0; cut < cuts && each.wrong == 0; ++cut)
+  {
+    const BooleanResults results = runPair(name, pair, seed, each);
+    if (cut + 1 < cuts && !results.unite.mesh.empty())
+    {
+      std::string link;
+      pair = nextOfChain(random, pair, results, link);
+      name += "; " + link;
+    }
+  }
+  ++(each.wrong == 0 ? tally.right : tally.wrong);
+  tally.seconds += each.seconds;
+}
+
+void runNearPlacements(
+  const Pool& pool, std::uint64_t first, std::uint64_t count, std::uint64_t cuts, Tally& tally)
+{
   for (std::uint64_t seed = first; seed < first + count && !pool.empty(); ++seed)
   {
-    Random random(seed);
-    const NearCase& near = cases[seed % cases.size()];
-    const Solid& first = anyOf(pool, random);
-    const Solid& second = anyOf(pool, random);
-    NearPair made = near.make(random, first.mesh, second.mesh);
-    const std::string name = near.name + ": " + first.name + " and " + second.name;
-    const Solid a(name, std::move(made.a));
-    const Solid b(name, std::move(made.b));
-    const Placement pair{ name, a.mesh, b.mesh, [&](const Vec3& p) { return a.contains(p); },
-      [&](const Vec3& p) { return b.contains(p); } };
-    runOurs(pair, seed, tally);
+    runNear(pool, seed, cuts, tally);
   }
 }
 
@@ -267,6 +296,7 @@ void print(const Tallies& tallies)
   };
   printPlacements("random placements", tallies.random);
   printPlacements("near placements", tallies.near);
+  printPlacements("chains of near placements", tallies.chained);
   for (const PeerTally& peer : tallies.peers)
   {
     std::printf("%s:", peer.name.c_str());
@@ -283,7 +313,8 @@ void print(const Tallies& tallies)
 
 int main(int argc, char** argv)
 {
-  std::map<char, std::uint64_t> option = { { 'n', 2000 }, { 'c', 0 }, { 'f', 1 }, { 'p', 30 } };
+  std::map<char, std::uint64_t> option = { { 'n', 2000 }, { 'c', 0 }, { 'f', 1 }, { 'p', 30 },
+    { 'k', 0 }, { 'r', 5 } };
   Pool pool;
   for (int k = 1; k < argc; ++k)
   {
@@ -299,7 +330,10 @@ int main(int argc, char** argv)
   Tallies tallies;
   runHardCases(tallies.hard);
   runPlacements(pool, option['f'], option['n'], option['p'], tallies);
-  runNearPlacements(pool, option['f'], option['c'], tallies.near);
+  runNearPlacements(pool, option['f'], option['c'], 1, tallies.near);
+  runNearPlacements(pool, option['f'], option['k'], option['r'], tallies.chained);
   print(tallies);
-  return tallies.hard.wrong + tallies.random.wrong + tallies.near.wrong == 0 ? 0 : 1;
+  const int wrong =
+    tallies.hard.wrong + tallies.random.wrong + tallies.near.wrong + tallies.chained.wrong;
+  return wrong == 0 ? 0 : 1;
 }

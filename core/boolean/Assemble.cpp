@@ -5,6 +5,7 @@
 #include "core/base/Parallel.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <limits>
 
 namespace hybridtree
@@ -14,9 +15,9 @@ namespace
 
 constexpr std::size_t kGrain = 1 << 14;
 
-// Where the elements kept of each part of an array begin; one entry more, their number.
-template <class IsKept>
-std::vector<std::size_t> keptBefore(std::size_t count, IsKept&& isKept)
+// Where the copies of the elements of each part of an array begin; one entry more, their number.
+template <class CopiesOf>
+std::vector<std::size_t> copiesBefore(std::size_t count, CopiesOf&& copiesOf)
 {
   std::vector<std::size_t> before((count + kGrain - 1) / kGrain + 1, 0);
   parallelFor(count, kGrain,
@@ -25,7 +26,7 @@ std::vector<std::size_t> keptBefore(std::size_t count, IsKept&& isKept)
       std::size_t kept = 0;
       for (std::size_t k = begin; k < end; ++k)
       {
-        kept += isKept(k);
+        kept += std::size_t(copiesOf(k));
       }
       before[begin / kGrain + 1] = kept;
     });
@@ -72,15 +73,16 @@ public:
   }
 
 private:
-  bool isPointKept(std::size_t mesh, std::size_t point) const
+  int copiesOfPoint(std::size_t mesh, std::size_t point) const
   {
-    return sides_.outside[mesh][point] == std::int8_t(keep_[mesh].outside);
+    return std::abs(keep_[mesh].copies(sides_.winding[mesh][point]));
   }
 
-  bool isTriangleKept(std::size_t mesh, std::size_t t) const
+  int copiesOfTriangle(std::size_t mesh, std::size_t t) const
   {
-    return (sides_.cut[mesh][t] & MeshSides::kCut) == 0 &&
-      this->isPointKept(mesh, std::size_t(operands_[mesh]->mesh().triangles[t][0]));
+    return (sides_.cut[mesh][t] & MeshSides::kCut) == 0
+      ? this->copiesOfPoint(mesh, std::size_t(operands_[mesh]->mesh().triangles[t][0]))
+      : 0;
   }
 
   void count()
@@ -92,9 +94,9 @@ private:
     {
       const TriangleMesh& m = operands_[mesh]->mesh();
       pointsBefore_[mesh] =
-        keptBefore(m.points.size(), [&](std::size_t k) { return this->isPointKept(mesh, k); });
-      trianglesBefore_[mesh] = keptBefore(
-        m.triangles.size(), [&](std::size_t k) { return this->isTriangleKept(mesh, k); });
+        copiesBefore(m.points.size(), [&](std::size_t k) { return this->copiesOfPoint(mesh, k); });
+      trianglesBefore_[mesh] = copiesBefore(
+        m.triangles.size(), [&](std::size_t k) { return this->copiesOfTriangle(mesh, k); });
       points += pointsBefore_[mesh].back();
       triangles += trianglesBefore_[mesh].back() + faces_[mesh].triangles.size();
       first[mesh + 1] = points;
@@ -127,9 +129,9 @@ private:
         std::size_t at = (mesh == 0 ? 0 : result_.firstOfB) + pointsBefore_[mesh][begin / kGrain];
         for (std::size_t k = begin; k < end; ++k)
         {
-          if (this->isPointKept(mesh, k))
+          place_[mesh][k] = std::int32_t(at);
+          for (int copy = this->copiesOfPoint(mesh, k); copy > 0; --copy)
           {
-            place_[mesh][k] = std::int32_t(at);
             result_.sourcePoint[at] = std::int32_t(k) < original ? std::int32_t(k) : -1;
             result_.mesh.points[at++] = points[k];
           }
@@ -176,16 +178,19 @@ private:
         std::size_t at = first + trianglesBefore_[mesh][begin / kGrain];
         for (std::size_t t = begin; t < end; ++t)
         {
-          if (!this->isTriangleKept(mesh, t))
-          {
-            continue;
-          }
           const Triangle& c = triangles[t];
-          const std::array<std::size_t, 3> corner = { std::size_t(c[0]),
-            std::size_t(c[keep_[mesh].flip ? 2 : 1]), std::size_t(c[keep_[mesh].flip ? 1 : 2]) };
-          result_.mesh.triangles[at] = { place[corner[0]], place[corner[1]], place[corner[2]] };
-          result_.sourceOperand[at] = std::int8_t(mesh);
-          result_.sourceTriangle[at++] = this->sourceOf(mesh, std::int32_t(t));
+          const int copies = this->copiesOfTriangle(mesh, t);
+          for (int copy = 0; copy < copies; ++copy)
+          {
+            const bool flip =
+              keep_[mesh].flip != (keep_[mesh].copies(sides_.winding[mesh][std::size_t(c[0])]) < 0);
+            const std::array<std::size_t, 3> corner = { std::size_t(c[0]),
+              std::size_t(c[flip ? 2 : 1]), std::size_t(c[flip ? 1 : 2]) };
+            result_.mesh.triangles[at] = { place[corner[0]] + copy, place[corner[1]] + copy,
+              place[corner[2]] + copy };
+            result_.sourceOperand[at] = std::int8_t(mesh);
+            result_.sourceTriangle[at++] = this->sourceOf(mesh, std::int32_t(t));
+          }
         }
       });
   }
@@ -193,10 +198,11 @@ private:
   void addParts(std::size_t mesh, std::size_t at)
   {
     const std::int32_t crossings = std::int32_t(curves_.crossings.size());
+    const std::int32_t vertices = std::int32_t(place_[mesh].size());
     const auto pointOf = [&](std::int32_t id)
     {
       const std::int32_t crossing = -1 - id;
-      return id >= 0           ? place_[mesh][std::size_t(id)]
+      return id >= 0           ? place_[mesh][std::size_t(id % vertices)] + id / vertices
         : crossing < crossings ? std::int32_t(result_.firstCut) + crossing
                                : firstAdded_[mesh] + crossing - crossings;
     };

@@ -24,14 +24,14 @@ class Cleaner
 public:
   explicit Cleaner(MeshBooleanResult& result) : result_(result), mesh_(result.mesh) {}
 
-  void run(double distance)
+  void run()
   {
     double largest = 0.0;
     for (const Vec3& p : mesh_.points)
     {
       largest = std::max(largest, p.cwiseAbs().maxCoeff());
     }
-    tolerance_ = std::max(kTolerance * largest, distance);
+    tolerance_ = kTolerance * largest;
     const std::size_t flat = this->markFlat();
     if (flat == 0)
     {
@@ -333,9 +333,9 @@ private:
 
 } // namespace
 
-void cleanResult(MeshBooleanResult& result, double distance)
+void cleanResult(MeshBooleanResult& result)
 {
-  Cleaner(result).run(distance);
+  Cleaner(result).run();
 }
 
 void makeRoomForCut(MeshBooleanResult& result, const std::vector<Vec3>& normals, double distance)

@@ -8,10 +8,10 @@ namespace hybridtree
 
 /// Takes away what rounding has left of faces that coincide or touch: edges without length,
 /// triangles without height, closed components without thickness, all by a tolerance of 2^-46 of
-/// the largest coordinate, or `distance` where that is more. Looks only where the cut made
+/// the largest coordinate. Looks only where the cut made
 /// triangles; nothing to do costs nothing. Keeps the mesh closed and manifold; what cannot go for
 /// that reason stays.
-void cleanResult(MeshBooleanResult& result, double distance = 0.0);
+void cleanResult(MeshBooleanResult& result);
 
 /// For operands whose triangles need not stay: merges points nearer to the cut than `distance` into
 /// it (NearCut.h), so that its own points have room where they have been moved.

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/boolean/CutFaces.h"
 
+#include "core/base/Error.h"
 #include "core/base/Parallel.h"
 #include "core/boolean/Triangulate.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <iterator>
 #include <limits>
+#include <string>
 #include <utility>
 
 namespace hybridtree
@@ -26,7 +30,7 @@ public:
     , mesh_(mesh)
     , keep_(keep)
     , curves_(curves)
-    , outside_(sides.outside[std::size_t(mesh)])
+    , winding_(sides.winding[std::size_t(mesh)])
     , cuts_(curves.cuts[std::size_t(mesh)])
     , faces_(faces)
   {
@@ -41,14 +45,14 @@ public:
     loops_.clear();
     this->choosePlane();
     this->gather(index);
-    this->makeRing();
-    this->traceFromBorder();
-    const std::size_t outer = loops_.size();
-    this->traceInside();
+    for (std::int32_t edge = 0; edge < 3; ++edge)
+    {
+      this->addPieces(edge);
+    }
+    std::sort(steps_.begin(), steps_.end());
+    const std::size_t outer = this->trace();
     this->triangulateAll(outer);
   }
-
-  bool contradictory() const { return contradictory_; }
 
 private:
   // A crossing on an edge of the triangle.
@@ -61,6 +65,7 @@ private:
     bool operator<(const Border& other) const { return crossing < other.crossing; }
   };
 
+  // From one corner of a part to the next, by the ids of CutFaces.
   struct Step
   {
     std::int32_t from, to;
@@ -68,9 +73,6 @@ private:
 
     bool operator<(const Step& other) const { return from < other.from; }
   };
-
-  // Corner k is entry -1 - k.
-  using Ring = std::vector<std::int32_t>;
 
   // Drops the axis along which the triangle is seen largest, keeping it counter-clockwise.
   void choosePlane()
@@ -98,7 +100,7 @@ private:
       const std::size_t s = std::size_t(cuts_.segments[std::size_t(k)]);
       const Segment& segment = curves_.segments[s];
       const std::array<std::int32_t, 2>& end = curves_.ends[s];
-      steps_.push_back({ end[forward ? 0 : 1], end[forward ? 1 : 0], false });
+      steps_.push_back({ -1 - end[forward ? 0 : 1], -1 - end[forward ? 1 : 0], false });
       if (segment.start.mesh == mesh_)
       {
         borders_.push_back({ end[0], segment.start.corner, !forward });
@@ -108,40 +110,56 @@ private:
         borders_.push_back({ end[1], segment.end.corner, forward });
       }
     }
-    std::sort(steps_.begin(), steps_.end());
     std::sort(borders_.begin(), borders_.end());
   }
 
-  // Corners and border crossings, counter-clockwise. Crossings on an edge are numbered from its
-  // lower end.
-  void makeRing()
+  // The kept pieces of an edge, from what begins them to what ends them as seen from its lower end.
+  // Crossings are numbered from there.
+  void addPieces(std::int32_t edge)
   {
-    ring_.clear();
-    for (std::int32_t k = 0; k < 3; ++k)
+    const std::int32_t from = corner_[std::size_t(edge)];
+    const std::int32_t to = corner_[std::size_t(edge + 1) % 3];
+    const bool ascending = from < to;
+    begins_.clear();
+    ends_.clear();
+    this->addCopies(ascending ? from : to, begins_, ends_);
+    for (const Border& border : borders_)
     {
-      ring_.push_back(-1 - k);
-      const std::size_t first = ring_.size();
-      for (const Border& border : borders_)
+      if (border.edge == edge)
       {
-        if (border.edge == k)
-        {
-          ring_.push_back(border.crossing);
-        }
-      }
-      if (corner_[std::size_t(k)] > corner_[std::size_t(k + 1) % 3])
-      {
-        std::reverse(ring_.begin() + std::ptrdiff_t(first), ring_.end());
+        (border.arrival == ascending ? begins_ : ends_).push_back(-1 - border.crossing);
       }
     }
-    places_.clear();
-    for (std::size_t k = 0; k < ring_.size(); ++k)
+    this->addCopies(ascending ? to : from, ends_, begins_);
+    if (begins_.size() != ends_.size())
     {
-      if (ring_[k] >= 0)
-      {
-        places_.emplace_back(ring_[k], k);
-      }
+      throw InvalidGeometry("Triangle " + std::to_string(triangle_) + " of the " +
+        (mesh_ == 0 ? "first" : "second") +
+        " mesh is cut so that its parts do not close: a mesh is not oriented. Repair it.");
     }
-    std::sort(places_.begin(), places_.end());
+    for (std::size_t k = 0; k < begins_.size(); ++k)
+    {
+      steps_.push_back(
+        ascending ? Step{ begins_[k], ends_[k], false } : Step{ ends_[k], begins_[k], false });
+    }
+  }
+
+  // Those of a vertex; turned around they end where they would begin.
+  void addCopies(
+    std::int32_t vertex, std::vector<std::int32_t>& begins, std::vector<std::int32_t>& ends) const
+  {
+    const int copies = keep_.copies(winding_[std::size_t(vertex)]);
+    const std::int64_t vertices = std::int64_t(winding_.size());
+    for (int copy = 0; copy < std::abs(copies); ++copy)
+    {
+      const std::int64_t id = vertex + copy * vertices;
+      if (id > std::numeric_limits<std::int32_t>::max())
+      {
+        throw TooLarge("A mesh of " + std::to_string(vertices) +
+          " points crosses itself too often at the cut. Decimate it.");
+      }
+      (copies > 0 ? begins : ends).push_back(std::int32_t(id));
+    }
   }
 
   const Border* borderAt(std::int32_t crossing) const
@@ -151,22 +169,23 @@ private:
     return found != borders_.end() && found->crossing == crossing ? &*found : nullptr;
   }
 
-  Step* stepFrom(std::int32_t crossing)
+  Step* stepFrom(std::int32_t id)
   {
-    const auto found = std::lower_bound(steps_.begin(), steps_.end(), Step{ crossing, 0, false });
-    return found != steps_.end() && found->from == crossing ? &*found : nullptr;
+    const auto found = std::lower_bound(steps_.begin(), steps_.end(), Step{ id, 0, false });
+    return found != steps_.end() && found->from == id ? &*found : nullptr;
   }
 
-  std::size_t placeOf(std::int32_t crossing) const
+  // Bits of the edges that it lies on.
+  unsigned edgesAt(std::int32_t id) const
   {
-    return std::lower_bound(
-      places_.begin(), places_.end(), std::make_pair(crossing, std::size_t(0)))
-      ->second;
-  }
-
-  bool isKept(std::int32_t corner) const
-  {
-    return (outside_[std::size_t(corner_[std::size_t(corner)])] == 1) == keep_.outside;
+    if (id < 0)
+    {
+      const Border* border = this->borderAt(-1 - id);
+      return border ? 1u << border->edge : 0u;
+    }
+    const std::int32_t vertex = std::int32_t(id % std::int64_t(winding_.size()));
+    const unsigned k = corner_[0] == vertex ? 0 : corner_[1] == vertex ? 1 : 2;
+    return 1u << k | 1u << (k + 2) % 3;
   }
 
   std::int32_t add(std::int32_t id, const Vec3& position, unsigned edges)
@@ -176,99 +195,29 @@ private:
     return std::int32_t(points_.size()) - 1;
   }
 
-  std::int32_t addCorner(std::int32_t k)
+  // Around all parts; returns how many touch the border of the triangle, which come first.
+  std::size_t trace()
   {
-    const std::int32_t vertex = corner_[std::size_t(k)];
-    contradictory_ = contradictory_ || !this->isKept(k);
-    return this->add(
-      vertex, operand_.mesh().points[std::size_t(vertex)], 1u << k | 1u << (k + 2) % 3);
-  }
-
-  std::int32_t addCrossing(std::int32_t crossing, const Border* border)
-  {
-    return this->add(-1 - crossing, curves_.crossings[std::size_t(crossing)].position,
-      border ? 1u << border->edge : 0u);
-  }
-
-  // Parts that touch the border of the triangle.
-  void traceFromBorder()
-  {
-    if (places_.empty() && this->isKept(0))
-    {
-      loops_.push_back({ this->addCorner(0), this->addCorner(1), this->addCorner(2) });
-    }
-    taken_.assign(ring_.size(), false);
-    for (std::size_t first = 0; first < ring_.size(); ++first)
-    {
-      const Border* start = ring_[first] >= 0 ? this->borderAt(ring_[first]) : nullptr;
-      if (start == nullptr || !start->arrival || taken_[first])
-      {
-        continue;
-      }
-      Triangulator::Loop loop;
-      std::size_t at = first;
-      do
-      {
-        taken_[at] = true;
-        at = this->traceOnce(at, loop);
-      } while (at < ring_.size() && !taken_[at]);
-      contradictory_ = contradictory_ || at != first;
-      if (at == first && loop.size() > 2)
-      {
-        loops_.push_back(std::move(loop));
-      }
-    }
-  }
-
-  // From an arrival along the border to the next departure, and along the curve to its arrival.
-  std::size_t traceOnce(std::size_t at, Triangulator::Loop& loop)
-  {
-    const Border* border = this->borderAt(ring_[at]);
-    loop.push_back(this->addCrossing(ring_[at], border));
-    for (at = (at + 1) % ring_.size(); ring_[at] < 0; at = (at + 1) % ring_.size())
-    {
-      loop.push_back(this->addCorner(-1 - ring_[at]));
-    }
-    border = this->borderAt(ring_[at]);
-    if (border->arrival)
-    {
-      return kLost;
-    }
-    std::int32_t crossing = ring_[at];
-    for (;;)
-    {
-      loop.push_back(this->addCrossing(crossing, border));
-      Step* step = this->stepFrom(crossing);
-      if (step == nullptr || step->visited)
-      {
-        return kLost;
-      }
-      step->visited = true;
-      crossing = step->to;
-      border = this->borderAt(crossing);
-      if (border)
-      {
-        return this->placeOf(crossing);
-      }
-    }
-  }
-
-  // Closed curves inside of the triangle.
-  void traceInside()
-  {
+    inside_.clear();
     for (Step& first : steps_)
     {
       Triangulator::Loop loop;
+      unsigned edges = 0;
       for (Step* step = &first; step != nullptr && !step->visited; step = this->stepFrom(step->to))
       {
         step->visited = true;
-        loop.push_back(this->addCrossing(step->from, nullptr));
+        const unsigned on = this->edgesAt(step->from);
+        loop.push_back(this->add(step->from, this->positionOf(step->from), on));
+        edges |= on;
       }
-      if (!loop.empty())
+      if (loop.size() > 2)
       {
-        loops_.push_back(std::move(loop));
+        (edges != 0 ? loops_ : inside_).push_back(std::move(loop));
       }
     }
+    const std::size_t outer = loops_.size();
+    std::move(inside_.begin(), inside_.end(), std::back_inserter(loops_));
+    return outer;
   }
 
   double areaOf(const Triangulator::Loop& loop) const
@@ -375,15 +324,21 @@ private:
       }
       faces[around].push_back(std::move(hole));
     }
-    for (const std::vector<Triangulator::Loop>& face : faces)
+    for (std::vector<Triangulator::Loop>& face : faces)
     {
       this->triangulate(face);
     }
   }
 
-  void triangulate(const std::vector<Triangulator::Loop>& loops)
+  void triangulate(std::vector<Triangulator::Loop>& loops)
   {
     planar_.clear();
+    // Kept turned around, where the other mesh crosses itself.
+    const bool turned = loops.size() == 1 && this->areaOf(loops[0]) < -this->rounding(loops[0]);
+    if (turned)
+    {
+      std::reverse(loops[0].begin(), loops[0].end());
+    }
     if (loops.size() == 1 && loops[0].size() == 3)
     {
       planar_.push_back({ loops[0][0], loops[0][1], loops[0][2] });
@@ -398,7 +353,7 @@ private:
     for (const Triangle& t : planar_)
     {
       Triangle made = { ids_[std::size_t(t[0])], ids_[std::size_t(t[1])], ids_[std::size_t(t[2])] };
-      if (keep_.flip)
+      if (keep_.flip != turned)
       {
         std::swap(made[1], made[2]);
       }
@@ -409,7 +364,7 @@ private:
 
   Vec3 positionOf(std::int32_t id) const
   {
-    return id >= 0 ? operand_.mesh().points[std::size_t(id)]
+    return id >= 0 ? operand_.mesh().points[std::size_t(id) % winding_.size()]
                    : curves_.crossings[std::size_t(-1 - id)].position;
   }
 
@@ -429,13 +384,11 @@ private:
     }
   }
 
-  static constexpr std::size_t kLost = std::size_t(-1);
-
   const MeshOperand& operand_;
   const int mesh_;
   const Keep keep_;
   const CutCurves& curves_;
-  const std::vector<std::int8_t>& outside_;
+  const std::vector<std::int8_t>& winding_;
   const CutCurves::Cuts& cuts_;
   CutFaces& faces_;
   Triangulator triangulator_;
@@ -445,24 +398,21 @@ private:
   int axisX_ = 0, axisY_ = 1;
   std::vector<Step> steps_;
   std::vector<Border> borders_;
-  Ring ring_;
-  std::vector<std::pair<std::int32_t, std::size_t>> places_;
-  std::vector<bool> taken_;
+  std::vector<std::int32_t> begins_, ends_;
   std::vector<std::int32_t> ids_;
   std::vector<PlanarPoint> points_;
   std::vector<Triangulator::Loop> loops_;
+  std::vector<Triangulator::Loop> inside_;
   std::vector<Triangle> planar_;
-  bool contradictory_ = false;
 };
 
 } // namespace
 
 CutFaces cutFaces(const MeshOperand& operand, int mesh, const Keep& keep, const CutCurves& curves,
-  const MeshSides& sides, bool& contradictory)
+  const MeshSides& sides)
 {
   const std::size_t count = curves.cuts[std::size_t(mesh)].triangles.size();
   std::vector<CutFaces> parts((count + kGrain - 1) / kGrain);
-  std::vector<char> bad(parts.size(), 0);
   parallelFor(count, kGrain,
     [&](std::size_t begin, std::size_t end)
     {
@@ -472,9 +422,7 @@ CutFaces cutFaces(const MeshOperand& operand, int mesh, const Keep& keep, const 
       {
         cutter.cut(k);
       }
-      bad[part] = cutter.contradictory();
     });
-  contradictory = contradictory || std::find(bad.begin(), bad.end(), 1) != bad.end();
   CutFaces faces;
   const std::int32_t added = -1 - std::int32_t(curves.crossings.size());
   for (CutFaces& part : parts)

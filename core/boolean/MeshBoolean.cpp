@@ -21,9 +21,9 @@ namespace
 
 constexpr std::uint64_t kSeed = 0x9b1d7f4a3c25e681ull;
 constexpr int kAttempts = 3;
-// How far B is moved in or out where nothing less will do: of the smaller operand's size, but never
-// less than so much of the largest coordinate, since that is what rounding does.
-constexpr std::array<double, 3> kDistances = { 0x1p-40, 0x1p-31, 0x1p-22 };
+// By how much an operand may cross itself: of the smaller one's size, but never less than so much
+// of the largest coordinate, since that is what rounding does.
+constexpr double kCrossing = 0x1p-22;
 constexpr double kRounding = 0x1p-44;
 
 std::array<Keep, 2> keptBy(MeshOperation operation)
@@ -65,33 +65,6 @@ bool isSame(const TriangleMesh& a, const TriangleMesh& b)
   return &a == &b || (a.triangles == b.triangles && a.points == b.points);
 }
 
-// B with each point moved along its outward direction.
-MeshOperand swollen(const MeshOperand& b, double distance)
-{
-  auto mesh = std::make_shared<TriangleMesh>();
-  mesh->triangles = b.mesh().triangles;
-  mesh->points = b.mesh().points;
-  for (std::size_t k = 0; k < mesh->points.size(); ++k)
-  {
-    mesh->points[k] += distance * b.outward(std::int32_t(k)).stableNormalized();
-  }
-  return MeshOperand(mesh);
-}
-
-// Onto the edges as they were before B was moved.
-void placeOnEdgesOf(const MeshOperand& b, CutCurves& curves)
-{
-  const std::vector<Vec3>& points = b.mesh().points;
-  for (Crossing& crossing : curves.crossings)
-  {
-    if (crossing.mesh == 1)
-    {
-      crossing.position = pointOnEdge(
-        points[std::size_t(crossing.low)], points[std::size_t(crossing.high)], crossing.parameter);
-    }
-  }
-}
-
 class Cut
 {
 public:
@@ -104,50 +77,13 @@ public:
   {
   }
 
-  /// Exactly; where surfaces contradict themselves, with B moved by more and more.
   MeshBooleanResult run() const
-  {
-    MeshBooleanResult result = this->seeded(b_, 0.0);
-    double last = 0.0;
-    for (const double distance : this->distances())
-    {
-      if (!result.usable && distance > last)
-      {
-        result = this->seeded(swollen(b_, swell_ * distance), distance);
-        last = distance;
-      }
-    }
-    return result;
-  }
-
-private:
-  // Those that are small beside both operands.
-  std::vector<double> distances() const
-  {
-    const Box3 boundsA = a_.mesh().bounds();
-    const Box3 boundsB = b_.mesh().bounds();
-    const Box3 both = boundsA.merged(boundsB);
-    const double size = std::min(boundsA.sizes().norm(), boundsB.sizes().norm());
-    const double least =
-      kRounding * both.min().cwiseAbs().cwiseMax(both.max().cwiseAbs()).maxCoeff();
-    std::vector<double> result;
-    for (const double share : kDistances)
-    {
-      if (least <= kDistances.back() * size)
-      {
-        result.push_back(std::max(least, share * size));
-      }
-    }
-    return result;
-  }
-
-  MeshBooleanResult seeded(const MeshOperand& moved, double distance) const
   {
     for (int attempt = 1;; ++attempt)
     {
       try
       {
-        return this->once(moved, distance, kSeed * std::uint64_t(attempt));
+        return this->once(kSeed * std::uint64_t(attempt));
       }
       catch (const InvalidGeometry&)
       {
@@ -159,38 +95,43 @@ private:
     }
   }
 
-  // `moved` is B where it is cut; what is made of it has the points of B.
-  MeshBooleanResult once(const MeshOperand& moved, double distance, std::uint64_t seed) const
+private:
+  double tolerance() const
+  {
+    const Box3 boundsA = a_.mesh().bounds();
+    const Box3 boundsB = b_.mesh().bounds();
+    const Box3 both = boundsA.merged(boundsB);
+    const double largest = both.min().cwiseAbs().cwiseMax(both.max().cwiseAbs()).maxCoeff();
+    return std::max(
+      kRounding * largest, kCrossing * std::min(boundsA.sizes().norm(), boundsB.sizes().norm()));
+  }
+
+  MeshBooleanResult once(std::uint64_t seed) const
   {
     const PerturbedPredicates predicates(
       [this](std::int32_t vertex) { return Vec3(swell_ * b_.outward(vertex)); }, seed);
     const std::array<const MeshOperand*, 2> operands = { &a_, &b_ };
 
-    CutCurves curves = cutCurves(a_, moved, predicates,
-      triangleCrossings(a_, moved, predicates, ProgressPart(progress_, 0.0, 0.4)));
+    const CutCurves curves = cutCurves(
+      a_, b_, predicates, triangleCrossings(a_, b_, predicates, ProgressPart(progress_, 0.0, 0.4)));
     progress_.check();
     progress_.report(0.5);
-    const MeshSides sides = meshSides(a_, moved, predicates, curves);
+    const MeshSides sides = meshSides(a_, b_, predicates, curves, this->tolerance());
     progress_.check();
     progress_.report(0.7);
-    bool contradictory = sides.contradictory;
-    if (distance > 0.0)
-    {
-      placeOnEdgesOf(b_, curves);
-    }
-    std::array<CutFaces, 2> faces;
-    for (std::size_t mesh = 0; mesh < 2 && !contradictory; ++mesh)
-    {
-      faces[mesh] = cutFaces(*operands[mesh], int(mesh), keep_[mesh], curves, sides, contradictory);
-      progress_.check();
-    }
-    progress_.report(0.8);
     MeshBooleanResult result;
-    result.usable = !contradictory;
+    result.usable = !sides.contradictory;
     if (result.usable)
     {
+      std::array<CutFaces, 2> faces;
+      for (std::size_t mesh = 0; mesh < 2; ++mesh)
+      {
+        faces[mesh] = cutFaces(*operands[mesh], int(mesh), keep_[mesh], curves, sides);
+        progress_.check();
+      }
+      progress_.report(0.8);
       result = assemble(operands, keep_, curves, sides, faces);
-      cleanResult(result, 4.0 * distance);
+      cleanResult(result);
     }
     return result;
   }

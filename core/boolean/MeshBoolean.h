@@ -48,8 +48,8 @@ struct MeshBooleanResult
 
   /// What the user should know: operands that were open.
   std::vector<std::string> warnings;
-  /// False where an operand crosses itself at the cut and no way past was found, or is inside out:
-  /// the mesh is then empty, and the last warning says why.
+  /// False where an operand crosses itself at the cut by more than rounding, or is inside out: the
+  /// mesh is then empty, and the last warning says why.
   bool usable = true;
 };
 
@@ -62,11 +62,9 @@ struct MeshBooleanResult
 /// has neither length nor height goes (CleanResult.h). Points and triangles away from the cut are
 /// copied.
 ///
-/// An operand that crosses itself at the cut, if only by rounding (the result of another cut, with
-/// faces in common), has no exact answer there. Then B is moved outward, inward for an
-/// intersection, by 2^-40, 2^-31 or at last 2^-22 of the smaller operand's size, which mostly takes
-/// the cut past such a place. All points of B that stay are its own; those on the cut are off by no
-/// more than that.
+/// An operand may cross itself at the cut by rounding, up to 2^-22 of the smaller operand's size,
+/// as results of other cuts do: what is around which part how often is then told exactly, and the
+/// result is closed, with such crossings of its own (CutFaces.h).
 ///
 /// Departs from [HT] 5.3: sides spread from the cut over whole parts of a mesh; where no cut comes
 /// by, a ray tells, with exact predicates. So no membership is asked for.

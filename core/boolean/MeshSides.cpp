@@ -2,20 +2,22 @@
 #include "core/boolean/MeshSides.h"
 
 #include "core/base/Parallel.h"
+#include "core/geometry/PointTriangle.h"
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <tuple>
+#include <utility>
 
 namespace hybridtree
 {
 namespace
 {
 
-// How many parts that crossings reach are asked again, by a ray, whether they are right.
-constexpr int kVerified = 64;
+constexpr int kMost = 100; // of shells around a point
 
 class Components
 {
@@ -144,33 +146,87 @@ private:
   int sum_ = 0;
 };
 
+// Whether a mesh is no farther from a point than a distance.
+class Nearness
+{
+public:
+  Nearness(const MeshOperand& operand, double distance) : operand_(operand), distance_(distance) {}
+
+  bool at(const Vec3& p) const
+  {
+    BoxTree::Box box = BoxTree::Box::nothing();
+    box.extend(Vec3(p.array() - distance_));
+    box.extend(Vec3(p.array() + distance_));
+    return operand_.tree().bounds().meets(box) && this->visit(operand_.tree().root(), box, p);
+  }
+
+private:
+  bool visit(const BoxTree::Node& node, const BoxTree::Box& box, const Vec3& p) const
+  {
+    const BoxTree& tree = operand_.tree();
+    bool found = false;
+    if (node.level > 0)
+    {
+      tree.forEachChild(node, box,
+        [&](const BoxTree::Node& child) { found = found || this->visit(child, box, p); });
+      return found;
+    }
+    return std::any_of(tree.begin(node), tree.end(node),
+      [&](std::int32_t t)
+      {
+        const Triangle& c = operand_.mesh().triangles[std::size_t(t)];
+        const auto corner = [&](std::size_t k)
+        { return operand_.mesh().points[std::size_t(c[k])]; };
+        return nearestOnTriangle(p, corner(0), corner(1), corner(2)).squaredDistance <=
+          distance_ * distance_;
+      });
+  }
+
+  const MeshOperand& operand_;
+  const double distance_;
+};
+
 // The vertices of one mesh.
 class VertexSides
 {
 public:
   VertexSides(const MeshOperand& mine, const MeshOperand& other, int mesh,
-    const PerturbedPredicates& predicates, const CutCurves& curves, MeshSides& sides)
+    const PerturbedPredicates& predicates, const CutCurves& curves, double tolerance,
+    MeshSides& sides)
     : mine_(mine)
-    , winding_(other, mesh == 0, predicates)
+    , ray_(other, mesh == 0, predicates)
+    , nearness_(other, tolerance)
     , mesh_(mesh)
     , curves_(curves)
     , cut_(sides.cut[std::size_t(mesh)])
-    , outside_(sides.outside[std::size_t(mesh)])
+    , winding_(sides.winding[std::size_t(mesh)])
     , components_(mine.mesh().points.size())
   {
   }
 
-  /// Whether all agree.
+  /// Whether what is inside can be told.
   bool run()
   {
     this->markCuts();
     this->joinVertices();
-    this->seed();
+    this->linkAcrossCrossings();
     this->spread();
-    return agree_;
+    return told_ && this->isToldAlongEdges();
   }
 
 private:
+  // From one part without crossings to another, over an edge.
+  struct Link
+  {
+    std::int32_t from, to;
+    std::int32_t step; // of the winding number
+
+    bool operator<(const Link& other) const
+    {
+      return std::tie(from, to, step) < std::tie(other.from, other.to, other.step);
+    }
+  };
+
   void markCuts()
   {
     cut_.assign(mine_.mesh().triangles.size(), 0);
@@ -189,13 +245,13 @@ private:
 
   void joinVertices()
   {
-    outside_.assign(mine_.mesh().points.size(), MeshSides::kUnused);
+    winding_.assign(mine_.mesh().points.size(), MeshSides::kUnused);
     for (std::size_t t = 0; t < cut_.size(); ++t)
     {
       const Triangle& corner = mine_.mesh().triangles[t];
       for (std::size_t k = 0; k < 3; ++k)
       {
-        outside_[std::size_t(corner[k])] = 0;
+        winding_[std::size_t(corner[k])] = 0;
         if ((cut_[t] & (1 << k)) == 0)
         {
           components_.join(corner[k], corner[(k + 1) % 3]);
@@ -204,102 +260,160 @@ private:
     }
   }
 
-  void seed()
+  // Calls visit(first, last) for the crossings on each edge, and each row of them.
+  template <class Visit>
+  void forEachCrossedEdge(Visit&& visit) const
   {
-    side_.assign(mine_.mesh().points.size(), kUnknown);
-    const auto isHere = [&](std::size_t k)
-    { return k < curves_.crossings.size() && curves_.crossings[k].mesh == mesh_; };
-    std::size_t k = 0;
-    while (k < curves_.crossings.size() && !isHere(k))
+    const std::vector<Crossing>& all = curves_.crossings;
+    for (std::size_t first = 0, last = 0; first < all.size(); first = last)
     {
-      ++k;
-    }
-    for (; isHere(k); ++k)
-    {
-      const Crossing& crossing = curves_.crossings[k];
-      this->set(crossing.low, k, -1, crossing.lowOutside);
-      this->set(crossing.high, k, 1, !crossing.lowOutside);
-    }
-  }
-
-  // The side next to a crossing, toward an end of its edge, is that of the next crossing's near
-  // side, or of the end itself.
-  void set(std::int32_t vertex, std::size_t crossing, int toward, bool outside)
-  {
-    const Crossing& here = curves_.crossings[crossing];
-    const std::size_t next = crossing + std::size_t(toward); // wraps around to no crossing
-    if (next < curves_.crossings.size())
-    {
-      const Crossing& there = curves_.crossings[next];
-      if (there.mesh == here.mesh && there.low == here.low && there.high == here.high &&
-        there.row == here.row)
+      const auto key = [&](std::size_t k)
+      { return std::tie(all[k].mesh, all[k].low, all[k].high, all[k].row); };
+      while (last < all.size() && key(last) == key(first))
       {
-        agree_ = agree_ && there.lowOutside != here.lowOutside;
-        return;
+        ++last;
+      }
+      if (all[first].mesh == mesh_)
+      {
+        visit(first, last);
       }
     }
-    std::int8_t& side = side_[std::size_t(components_.find(vertex))];
-    agree_ = agree_ && (side == kUnknown || side == std::int8_t(outside));
-    side = std::int8_t(outside);
   }
 
+  static int stepAt(const Crossing& crossing) { return crossing.lowOutside ? 1 : -1; }
+
+  void linkAcrossCrossings()
+  {
+    this->forEachCrossedEdge(
+      [this](std::size_t first, std::size_t last)
+      {
+        const Crossing& edge = curves_.crossings[first];
+        const std::int32_t low = components_.find(edge.low);
+        const std::int32_t high = components_.find(edge.high);
+        int step = 0;
+        for (std::size_t k = first; k < last; ++k)
+        {
+          step += stepAt(curves_.crossings[k]);
+        }
+        links_.push_back({ low, high, step });
+        links_.push_back({ high, low, -step });
+      });
+    std::sort(links_.begin(), links_.end());
+    links_.erase(std::unique(links_.begin(), links_.end(),
+                   [](const Link& a, const Link& b) { return !(a < b) && !(b < a); }),
+      links_.end());
+  }
+
+  // A ray for the first vertex of every part of the mesh.
   void spread()
   {
-    int verified = 0;
-    for (std::size_t v = 0; v < side_.size(); ++v)
+    known_.assign(winding_.size(), false);
+    for (std::size_t v = 0; v < winding_.size(); ++v)
     {
-      if (outside_[v] == MeshSides::kUnused)
+      if (winding_[v] == MeshSides::kUnused)
       {
         continue;
       }
       const std::int32_t root = components_.find(std::int32_t(v));
-      std::int8_t& side = side_[std::size_t(root)];
-      if (std::size_t(root) == v && (side == kUnknown || verified < kVerified))
+      if (!known_[std::size_t(root)])
       {
-        const int winding = winding_.at(siteOf(mine_, root, mesh_ == 1));
-        agree_ = agree_ && winding >= 0 &&
-          (side == kUnknown || (winding <= 1 && side == std::int8_t(winding == 0)));
-        verified += side != kUnknown;
-        side = side == kUnknown ? std::int8_t(winding <= 0) : side;
+        this->spreadFrom(root, ray_.at(siteOf(mine_, root, mesh_ == 1)));
       }
-      outside_[v] = side;
+      winding_[v] = winding_[std::size_t(root)];
+      told_ = told_ && (this->isTold(winding_[v]) || nearness_.at(mine_.mesh().points[v]));
     }
   }
 
-  static constexpr std::int8_t kUnknown = -1;
+  static bool isTold(int winding) { return winding == 0 || winding == 1; }
+
+  void spreadFrom(std::int32_t root, int winding)
+  {
+    const auto linksOf = [this](std::int32_t from) {
+      return std::lower_bound(links_.begin(), links_.end(), Link{ from, -1, 0 });
+    };
+    const auto first = linksOf(root);
+    if (first == links_.end() || first->from != root)
+    {
+      winding = std::min(winding, 1); // inside of several shells, no matter of which
+    }
+    std::vector<std::int32_t> front = { root };
+    this->set(root, winding);
+    while (!front.empty())
+    {
+      const std::int32_t from = front.back();
+      front.pop_back();
+      for (auto link = linksOf(from); link != links_.end() && link->from == from; ++link)
+      {
+        const int next = winding_[std::size_t(from)] + link->step;
+        if (!known_[std::size_t(link->to)])
+        {
+          this->set(link->to, next);
+          front.push_back(link->to);
+        }
+        told_ = told_ && winding_[std::size_t(link->to)] == next;
+      }
+    }
+  }
+
+  void set(std::int32_t root, int winding)
+  {
+    told_ = told_ && std::abs(winding) <= kMost;
+    winding_[std::size_t(root)] = std::int8_t(std::clamp(winding, -kMost, kMost));
+    known_[std::size_t(root)] = true;
+  }
+
+  // Between crossings too the other mesh may cross itself by rounding only.
+  bool isToldAlongEdges() const
+  {
+    bool told = true;
+    this->forEachCrossedEdge(
+      [&](std::size_t first, std::size_t last)
+      {
+        int winding = winding_[std::size_t(curves_.crossings[first].low)];
+        for (std::size_t k = first; k + 1 < last && told; ++k)
+        {
+          winding += stepAt(curves_.crossings[k]);
+          told = this->isTold(winding) ||
+            nearness_.at(0.5 * (curves_.crossings[k].position + curves_.crossings[k + 1].position));
+        }
+      });
+    return told;
+  }
 
   const MeshOperand& mine_;
-  Winding winding_;
+  Winding ray_;
+  const Nearness nearness_;
   const int mesh_;
   const CutCurves& curves_;
   std::vector<std::uint8_t>& cut_;
-  std::vector<std::int8_t>& outside_;
+  std::vector<std::int8_t>& winding_;
   Components components_;
-  std::vector<std::int8_t> side_; // per root: 1 outside, 0 inside
-  bool agree_ = true;
+  std::vector<Link> links_;
+  std::vector<bool> known_; // per root
+  bool told_ = true;
 };
 
 } // namespace
 
 MeshSides meshSides(const MeshOperand& a, const MeshOperand& b,
-  const PerturbedPredicates& predicates, const CutCurves& curves)
+  const PerturbedPredicates& predicates, const CutCurves& curves, double tolerance)
 {
   MeshSides sides;
-  std::atomic<bool> agree{ true };
+  std::atomic<bool> told{ true };
   parallelFor(2, 1,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t mesh = begin; mesh < end; ++mesh)
       {
         VertexSides mine(
-          mesh == 0 ? a : b, mesh == 0 ? b : a, int(mesh), predicates, curves, sides);
+          mesh == 0 ? a : b, mesh == 0 ? b : a, int(mesh), predicates, curves, tolerance, sides);
         if (!mine.run())
         {
-          agree = false;
+          told = false;
         }
       }
     });
-  sides.contradictory = !agree;
+  sides.contradictory = !told;
   return sides;
 }
 

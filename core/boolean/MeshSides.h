@@ -4,12 +4,14 @@
 #include "core/boolean/CutCurves.h"
 
 #include <array>
+#include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace hybridtree
 {
 
-/// What of each mesh lies outside of the other.
+/// How often each mesh goes around the vertices of the other.
 struct MeshSides
 {
   /// Per mesh and triangle: bit k where the edge from corner k is crossed, bit 3 (kCut) where the
@@ -17,18 +19,20 @@ struct MeshSides
   static constexpr std::uint8_t kCut = 8;
   std::array<std::vector<std::uint8_t>, 2> cut;
 
-  /// Per mesh and vertex: whether it lies outside; kUnused for points without triangles.
-  static constexpr std::int8_t kUnused = -1;
-  std::array<std::vector<std::int8_t>, 2> outside;
+  /// Per mesh and vertex: the winding number of the other mesh, 0 outside and 1 inside; others
+  /// where that one crosses itself. kUnused for points without triangles.
+  static constexpr std::int8_t kUnused = std::numeric_limits<std::int8_t>::min();
+  std::array<std::vector<std::int8_t>, 2> winding;
 
-  /// Sides contradict each other: a mesh crosses itself where it meets the other, shells of it
-  /// overlap there, or it is inside out. What is cut out along these sides need not be closed.
+  /// A mesh crosses itself where it meets the other, shells of it overlap there, or it is inside
+  /// out, and by more than the tolerance: what is inside of it cannot be told.
   bool contradictory = false;
 };
 
-/// Sides spread from the crossings along edges that are not crossed; one ray for every part of a
-/// mesh that no crossing reaches ([HT] 5.3 asks for the side of each vertex).
+/// One ray for every connected part of a mesh; from there along edges, by one up or down at each
+/// crossing.
+/// \param tolerance a length: a mesh may cross itself by so much.
 MeshSides meshSides(const MeshOperand& a, const MeshOperand& b,
-  const PerturbedPredicates& predicates, const CutCurves& curves);
+  const PerturbedPredicates& predicates, const CutCurves& curves, double tolerance);
 
 } // namespace hybridtree

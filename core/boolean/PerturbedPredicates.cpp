@@ -14,6 +14,7 @@ namespace
 
 constexpr double kEpsilon = 0x1p-53;
 constexpr double kFilter = 40.0 * kEpsilon; // of a sum of at most 12 determinants
+constexpr double kSteep = 0x1p-10;          // of volumes, beside the products that make them
 constexpr int kOrders = 4;                  // powers of e in one vertex: 0 to 3
 constexpr int kDegree = 3 * (kOrders - 1);
 
@@ -301,7 +302,11 @@ double PerturbedPredicates::parameter(
   Volume atQ(*this, triangle[0], triangle[1], triangle[2], q);
   const Rounded roughP = atP.value();
   const Rounded roughQ = atQ.value();
-  if (roughP.isCertain() && roughQ.isCertain())
+  // Signs alone are not enough: along an edge nearly parallel to the triangle, an error far above
+  // rounding would be made of them.
+  const bool isSteep =
+    std::abs(roughP.value - roughQ.value) > kSteep * std::max(roughP.size, roughQ.size);
+  if (isSteep && roughP.isCertain() && roughQ.isCertain())
   {
     return roughP.value / (roughP.value - roughQ.value);
   }

@@ -316,10 +316,16 @@ bool Triangulator::flip(std::size_t t, std::size_t u, std::int32_t a, std::int32
   };
   const std::int32_t c = apex(t);
   const std::int32_t d = apex(u);
-  if (!this->mayJoin(c, d) || this->turn(c, a, d) <= 0 || this->turn(d, b, c) <= 0 ||
+  if (!this->mayJoin(c, d) || (hasHoles_ && diagonals_.count(std::minmax(c, d)) > 0) ||
+    this->turn(c, a, d) <= 0 || this->turn(d, b, c) <= 0 ||
     this->worstOf(d, c, a, b) <= this->worstOf(a, b, c, d) * (1.0 + 1e-9))
   {
     return false;
+  }
+  if (hasHoles_)
+  {
+    diagonals_.erase(std::minmax(a, b));
+    diagonals_.insert(std::minmax(c, d));
   }
   made_[t] = { c, a, d };
   made_[u] = { d, b, c };

@@ -164,4 +164,30 @@ std::vector<NearCase> nearCases()
     { "very small or large", verySmallOrLarge } };
 }
 
+NearPair nextOfChain(
+  Random& random, const NearPair& pair, const BooleanResults& results, std::string& name)
+{
+  const std::array<std::pair<const char*, const TriangleMesh*>, 3> made = {
+    { { "A + B", &results.unite.mesh }, { "A & B", &results.intersect.mesh },
+      { "A - B", &results.subtract.mesh } }
+  };
+  std::size_t which = std::size_t(random.integer(0, 2));
+  which = made[which].second->empty() ? 0 : which;
+  const bool isFirst = random.chance(0.5);
+  NearPair next = { *made[which].second, isFirst ? pair.a : pair.b };
+  name = std::string(made[which].first) + ", " + (isFirst ? "A" : "B");
+  if (random.chance(0.4))
+  {
+    const NearCase moving = nearCases()[std::size_t(random.integer(0, 2))];
+    next.b = moving.make(random, next.b, next.b).b;
+    name += " " + moving.name;
+  }
+  if (random.chance(0.3))
+  {
+    std::swap(next.a, next.b);
+    name += ", swapped";
+  }
+  return next;
+}
+
 } // namespace hybridtree::test
