@@ -33,6 +33,7 @@ SkeletonField fieldOf(const SubdivisionSkeleton& leaf, const SkeletonElementFiel
 }
 
 constexpr std::size_t kTogether = 32; // points whose elements are looked for at once
+constexpr double kRounding = 1e-9;    // of distances, in radii
 
 /// The piece of the refined element that a point is nearest to.
 class PieceFinder
@@ -51,14 +52,18 @@ public:
     {
       box.extend(point);
     }
-    const std::vector<Candidate> candidates = this->candidatesIn(box);
+    std::vector<Vec3> own(points.size());
+    std::transform(
+      points.begin(), points.end(), own.begin(), [&](const Vec3& p) { return inverse_ * p; });
+    std::vector<double> least;
+    const std::vector<Candidate> candidates = this->candidatesIn(box, own, least);
     const bool isOne = std::all_of(candidates.begin(), candidates.end(),
       [&](const Candidate& of) { return of.piece == candidates.front().piece; });
     for (std::size_t k = 0; k < points.size(); ++k)
     {
       pieces[k] = candidates.empty() ? -1
         : isOne                      ? candidates.front().piece
-                                     : this->nearest(candidates, inverse_ * points[k]);
+                                     : this->nearest(candidates, own[k], least[k]);
     }
   }
 
@@ -75,9 +80,17 @@ private:
     std::size_t order;
 
     double leastDistance(const Vec3& p) const { return ((p - center).norm() - size) / radius; }
+    bool mayBeWithin(double distance, const Vec3& p) const
+    {
+      const double most = size + (distance + kRounding) * radius;
+      return (p - center).squaredNorm() <= most * most;
+    }
   };
 
-  std::vector<Candidate> candidatesIn(const Box3& box) const
+  /// Those that may be the nearest to one of the points. \param least to be filled: how far each
+  /// point is from the first of them.
+  std::vector<Candidate> candidatesIn(
+    const Box3& box, const std::vector<Vec3>& points, std::vector<double>& least) const
   {
     const SubdivisionSkeleton::Reaching reaching = leaf_.elementsReaching(box);
     std::vector<Candidate> candidates;
@@ -106,44 +119,111 @@ private:
       add(false, t, leaf_.pieces().triangles[std::size_t(refined.triangleParents[t])],
         refined.triangles[t]);
     }
-    // The nearest come first: then most others are told to be farther by their balls.
-    const Vec3 p = inverse_ * box.center();
-    std::vector<std::pair<double, std::size_t>> byDistance;
-    for (const Candidate& of : candidates)
+    return this->nearestOf(candidates, inverse_ * box.center(), points, least);
+  }
+
+  /// The one whose ball is nearest to the middle bounds how far all points are from theirs. What is
+  /// farther is no candidate; of the others the nearest come first.
+  std::vector<Candidate> nearestOf(const std::vector<Candidate>& all, const Vec3& middle,
+    const std::vector<Vec3>& points, std::vector<double>& least) const
+  {
+    if (all.empty())
     {
-      byDistance.emplace_back(of.leastDistance(p), of.order);
+      return {};
     }
+    double size = 0.0;
+    for (const Vec3& p : points)
+    {
+      size = std::max(size, (p - middle).norm());
+    }
+    std::vector<std::pair<double, std::size_t>> byDistance;
+    byDistance.reserve(all.size());
+    for (const Candidate& of : all)
+    {
+      byDistance.emplace_back(of.leastDistance(middle), of.order);
+    }
+    const Candidate& first = all[std::min_element(byDistance.begin(), byDistance.end())->second];
+    double most = 0.0;
+    for (const Vec3& p : points)
+    {
+      least.push_back(this->distance(first, p));
+      most = std::max(most, least.back());
+    }
+    const auto isFar = [&](const std::pair<double, std::size_t>& of)
+    { return of.first - size / all[of.second].radius > most + kRounding; };
+    byDistance.erase(std::remove_if(byDistance.begin(), byDistance.end(), isFar), byDistance.end());
     std::sort(byDistance.begin(), byDistance.end());
     std::vector<Candidate> sorted;
-    sorted.reserve(candidates.size());
+    sorted.reserve(byDistance.size());
     for (const auto& [distance, order] : byDistance)
     {
-      sorted.push_back(candidates[order]);
+      sorted.push_back(all[order]);
     }
     return sorted;
   }
 
-  /// Of those equally near the first.
-  std::int32_t nearest(const std::vector<Candidate>& candidates, const Vec3& p) const
+  double distance(const Candidate& of, const Vec3& p) const
   {
-    double least = std::numeric_limits<double>::infinity();
-    const Candidate* best = nullptr;
+    return of.isSegment ? this->distanceToSegment(p, leaf_.refined().segments[of.element])
+                        : this->distanceToTriangle(p, leaf_.refined().triangles[of.element]);
+  }
+
+  /// A candidate and how near it may be to a point.
+  struct Near
+  {
+    double bound;
+    const Candidate* candidate;
+
+    bool operator<(const Near& other) const { return bound < other.bound; }
+  };
+
+  /// The best so far of a point.
+  struct Best
+  {
+    const Candidate* candidate;
+    double distance;
+  };
+
+  /// Of those equally near the first in the skeleton. \param least distance from any candidate.
+  std::int32_t nearest(const std::vector<Candidate>& candidates, const Vec3& p, double least) const
+  {
+    static thread_local std::vector<Near> near; // no allocation once warm
+    near.clear();
     for (const Candidate& of : candidates)
     {
-      if (of.leastDistance(p) > least)
+      if (of.mayBeWithin(least, p))
+      {
+        near.push_back({ of.leastDistance(p), &of });
+      }
+    }
+    const Candidate* const first = std::min_element(near.begin(), near.end())->candidate;
+    Best best{ first, this->distance(*first, p) };
+    // Others of its piece matter only where one of another piece is nearer than it.
+    this->improve(near, p, first->piece, false, best);
+    if (best.candidate != first)
+    {
+      this->improve(near, p, first->piece, true, best);
+    }
+    return best.candidate->piece;
+  }
+
+  /// Looks among those of a piece, or not of it.
+  void improve(
+    const std::vector<Near>& near, const Vec3& p, std::int32_t piece, bool isOfIt, Best& best) const
+  {
+    for (const Near& of : near)
+    {
+      if ((of.candidate->piece == piece) != isOfIt || of.bound > best.distance)
       {
         continue;
       }
-      const double distance = of.isSegment
-        ? this->distanceToSegment(p, leaf_.refined().segments[of.element])
-        : this->distanceToTriangle(p, leaf_.refined().triangles[of.element]);
-      if (distance < least || (distance == least && of.order < best->order))
+      const double distance = this->distance(*of.candidate, p);
+      if (distance < best.distance ||
+        (distance == best.distance && of.candidate->order < best.candidate->order))
       {
-        best = &of;
-        least = distance;
+        best = { of.candidate, distance };
       }
     }
-    return best ? best->piece : -1;
   }
 
   const Vec3& at(std::int32_t point) const { return leaf_.refined().points[std::size_t(point)]; }
