@@ -64,7 +64,7 @@ public:
   Interval range(const BlendSelection& selection, const Box3& box) const;
 
   /// Adds all that the field in some boxes depends on, besides the elements that reach them. \pre
-  /// BlendingKind::All, or the compact kernel and Neighbours.
+  /// BlendingKind::All, or the compact kernel.
   void describeBlending(const std::vector<Box3>& boxes, Contents& contents) const;
 
 private:

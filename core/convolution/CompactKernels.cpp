@@ -69,6 +69,10 @@ struct CompactSegmentIntegral
 
   HWY_INLINE void add(const SegmentElement& element, V x, V y, V z, V& value) const
   {
+    if (areBeyond(element.ball, x, y, z))
+    {
+      return;
+    }
     Result result;
     if (this->integrate(SegmentView(element, x, y, z), result))
     {
@@ -79,6 +83,10 @@ struct CompactSegmentIntegral
   HWY_INLINE void addWithGradient(
     const SegmentElement& element, V x, V y, V z, V& value, V& gx, V& gy, V& gz) const
   {
+    if (areBeyond(element.ball, x, y, z))
+    {
+      return;
+    }
     const SegmentView view(element, x, y, z);
     Result result;
     if (this->integrate(view, result))
@@ -274,6 +282,10 @@ struct CompactTriangleIntegral
 
   HWY_INLINE void add(const TriangleElement& element, V x, V y, V z, V& value) const
   {
+    if (areBeyond(element.ball, x, y, z))
+    {
+      return;
+    }
     TriangleView view(element, x, y, z);
     Result result;
     if (this->integrate(view, element, result, nullptr))
@@ -285,6 +297,10 @@ struct CompactTriangleIntegral
   HWY_INLINE void addWithGradient(
     const TriangleElement& element, V x, V y, V z, V& value, V& gx, V& gy, V& gz) const
   {
+    if (areBeyond(element.ball, x, y, z))
+    {
+      return;
+    }
     TriangleView view(element, x, y, z);
     Result result;
     TriangleSlopes slopes;

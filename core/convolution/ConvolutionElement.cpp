@@ -1,10 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/convolution/ConvolutionElement.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace hybridtree
 {
+namespace
+{
+
+constexpr double kRounding = 1e-9; // of the size of a ball
+
+/// Around a center of an element.
+ElementBall ballAround(const Vec3& center, double size, double reach)
+{
+  const double radius = (1.0 + kRounding) * (size + reach);
+  return { center, radius * radius };
+}
+
+} // namespace
 
 SegmentElement makeSegmentElement(
   const Vec3& start, const Vec3& end, double startReach, double endReach)
@@ -12,7 +26,8 @@ SegmentElement makeSegmentElement(
   const Vec3 along = end - start;
   const double length = along.norm();
   return { start, along / length, length, startReach, (endReach - startReach) / length,
-    1.0 / startReach, 1.0 / endReach };
+    1.0 / startReach, 1.0 / endReach,
+    ballAround(0.5 * (start + end), 0.5 * length, std::max(startReach, endReach)) };
 }
 
 TriangleElement makeTriangleElement(
@@ -53,6 +68,13 @@ TriangleElement makeTriangleElement(
     element.edgeX[k] = dx * element.inverseLength[k];
     element.edgeY[k] = dy * element.inverseLength[k];
   }
+  const Vec3 center = (corners[0] + corners[1] + corners[2]) / 3.0;
+  double size = 0.0;
+  for (const Vec3& corner : corners)
+  {
+    size = std::max(size, (corner - center).norm());
+  }
+  element.ball = ballAround(center, size, std::max(reaches[0], std::max(reaches[1], reaches[2])));
   return element;
 }
 

@@ -8,6 +8,13 @@
 namespace hybridtree
 {
 
+/// Outside of it an element is beyond its reach.
+struct ElementBall
+{
+  Vec3 center;
+  double squaredRadius;
+};
+
 /// The elements that fields are integrated over, prepared for the kernels, and what they measure.
 ///
 /// R is the reach of the kernel, linear over an element. [SUB] 3.3 takes it constant (the mean of
@@ -31,6 +38,7 @@ struct SegmentElement
   double slope;        ///< dR/ds
   double inverseStart; ///< 1/R at the start
   double inverseEnd;   ///< 1/R at the end
+  ElementBall ball;
 };
 
 struct TriangleElement
@@ -43,6 +51,7 @@ struct TriangleElement
   double originReach;            ///< R at the origin
   double slope;                  ///< >= 0
   std::array<double, 3> inverse; ///< 1/R at the corners
+  ElementBall ball;
 };
 ///@}
 

@@ -53,6 +53,14 @@ HWY_INLINE V angleOf(V x, V y)
   return hn::IfThenElse(hn::Lt(x, hn::Zero(D())), hn::Sub(set(2.0 * kHalfPi), angle), angle);
 }
 
+// Whether no point is within an element's ball.
+HWY_INLINE bool areBeyond(const ElementBall& ball, V x, V y, V z)
+{
+  const V squared = squaredNorm(hn::Sub(x, set(ball.center[0])), hn::Sub(y, set(ball.center[1])),
+    hn::Sub(z, set(ball.center[2])));
+  return hn::AllFalse(D(), hn::Lt(squared, set(ball.squaredRadius)));
+}
+
 // A point seen from the line of a segment: 1 - d^2/R^2 = q - y^2 along it, y from y0 to y1.
 struct SegmentView
 {

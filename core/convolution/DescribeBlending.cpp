@@ -39,6 +39,8 @@ public:
 
   void meet(std::int32_t group) { isMet_[static_cast<std::size_t>(group)] = 1; }
 
+  const std::vector<char>& met() const { return isMet_; }
+
   void addDistances(const std::vector<GroupDistance>& distances)
   {
     for (const auto& [group, distance] : distances)
@@ -92,9 +94,34 @@ private:
 
 } // namespace
 
+void PaperSums::describe(const std::vector<char>& isMet, Contents& contents) const
+{
+  for (std::size_t group = 0; group < isMet.size(); ++group)
+  {
+    if (!isMet[group])
+    {
+      continue;
+    }
+    contents.add(static_cast<std::uint64_t>(group));
+    for (const Neighbour& neighbour : neighbours_[group])
+    {
+      if (isMet[static_cast<std::size_t>(neighbour.group)])
+      {
+        contents.add(neighbour.group);
+        for (const double slope : neighbour.slope)
+        {
+          contents.add(slope);
+        }
+        contents.add(neighbour.offset);
+      }
+    }
+    contents.add(std::int32_t(-1));
+  }
+}
+
 void BlendedField::describeBlending(const std::vector<Box3>& boxes, Contents& contents) const
 {
-  if (!pieces_)
+  if (!pieces_ && !paper_)
   {
     return;
   }
@@ -112,9 +139,19 @@ void BlendedField::describeBlending(const std::vector<Box3>& boxes, Contents& co
     {
       describer.meet(triangleGroups_[whole_.index(triangle)]);
     }
+    if (paper_)
+    {
+      continue;
+    }
     pieces_->select(box, reaching);
     all.segments.insert(all.segments.end(), reaching.segments.begin(), reaching.segments.end());
     all.triangles.insert(all.triangles.end(), reaching.triangles.begin(), reaching.triangles.end());
+  }
+  contents.add(partSize_); // by which points are asked for together
+  if (paper_)
+  {
+    paper_->describe(describer.met(), contents);
+    return;
   }
   const std::vector<const SegmentElement*> segments = unique(std::move(all.segments));
   const std::vector<const TriangleElement*> triangles = unique(std::move(all.triangles));
@@ -132,7 +169,6 @@ void BlendedField::describeBlending(const std::vector<Box3>& boxes, Contents& co
       body(*triangle, placeOf(triangle, places_.trianglePlaces));
     }
   };
-  contents.add(partSize_); // by which points are asked for together
   forEachPiece([&](const auto&, const BlendPieces::Place& place) { describer.meet(place.group); });
   describer.addGroups(places_);
   forEachPiece(

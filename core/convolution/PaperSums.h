@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "core/base/Contents.h"
 #include "core/convolution/BlendSelection.h"
 #include "core/convolution/BlendingControl.h"
 #include "core/convolution/GroupedElements.h"
@@ -39,6 +40,10 @@ public:
 
   /// Upper bound of the length of the gradient of largest(). \param bounds per unit.
   double slope(const BlendSelection& selection, const std::vector<FieldBounds>& bounds) const;
+
+  /// What largest() depends on besides the elements that reach a place. \param isMet per group:
+  /// whether any of its elements does.
+  void describe(const std::vector<char>& isMet, Contents& contents) const;
 
 private:
   // A neighbour of a group, and u: slope . p + offset.

@@ -52,8 +52,7 @@ Corners cornersOf(const SkeletonGraph& coarse, std::size_t element)
 
 bool SkeletonLocalField::isLocal() const
 {
-  return leaf_.options().kernel.kind == KernelKind::Compact &&
-    leaf_.options().blending.kind != BlendingKind::Paper;
+  return leaf_.options().kernel.kind == KernelKind::Compact;
 }
 
 void SkeletonLocalField::addOptions(Contents& contents) const

@@ -14,10 +14,10 @@ namespace hybridtree
 /// The field of a skeleton leaf, for what is kept while the skeleton is edited.
 ///
 /// With the compact kernel a place depends on the elements that reach it, and where neighbours
-/// blend on how far these are from each other along the skeleton. The Cauchy kernel reaches
-/// everywhere and the largest sum of [SUB] asks for more: there every place depends on the whole
-/// skeleton. The sum of one element in [SUB] depends on the elements that share a corner with it,
-/// with any kernel.
+/// blend on how far these are from each other along the skeleton, or, as in [SUB], on the corners
+/// of these coarse elements. The Cauchy kernel reaches everywhere: there every place depends on the
+/// whole skeleton, but for the sum of one element in [SUB]. That depends on the elements that share
+/// a corner with it, with any kernel.
 class SkeletonLocalField final : public LocalField
 {
 public:

@@ -57,8 +57,7 @@ public:
       points.begin(), points.end(), own.begin(), [&](const Vec3& p) { return inverse_ * p; });
     std::vector<double> least;
     const std::vector<Candidate> candidates = this->candidatesIn(box, own, least);
-    const bool isOne = std::all_of(candidates.begin(), candidates.end(),
-      [&](const Candidate& of) { return of.piece == candidates.front().piece; });
+    const bool isOne = areOfOnePiece(candidates);
     for (std::size_t k = 0; k < points.size(); ++k)
     {
       pieces[k] = candidates.empty() ? -1
@@ -87,8 +86,14 @@ private:
     }
   };
 
-  /// Those that may be the nearest to one of the points. \param least to be filled: how far each
-  /// point is from the first of them.
+  static bool areOfOnePiece(const std::vector<Candidate>& candidates)
+  {
+    return std::all_of(candidates.begin(), candidates.end(),
+      [&](const Candidate& of) { return of.piece == candidates.front().piece; });
+  }
+
+  /// Those that may be the nearest to one of the points, if these are of several pieces. \param
+  /// least to be filled: how far each point is from one of them.
   std::vector<Candidate> candidatesIn(
     const Box3& box, const std::vector<Vec3>& points, std::vector<double>& least) const
   {
@@ -99,9 +104,10 @@ private:
       Candidate of{ isSegment, element, piece, Vec3::Zero(), 0.0, 0.0, candidates.size() };
       for (const std::int32_t corner : corners)
       {
-        of.center += this->at(corner) / double(corners.size());
+        of.center += this->at(corner);
         of.radius = std::max(of.radius, this->radius(corner));
       }
+      of.center *= 1.0 / double(corners.size());
       for (const std::int32_t corner : corners)
       {
         of.size = std::max(of.size, (this->at(corner) - of.center).norm());
@@ -119,47 +125,42 @@ private:
       add(false, t, leaf_.pieces().triangles[std::size_t(refined.triangleParents[t])],
         refined.triangles[t]);
     }
-    return this->nearestOf(candidates, inverse_ * box.center(), points, least);
+    this->dropFar(inverse_ * box.center(), points, candidates, least);
+    return candidates;
   }
 
-  /// The one whose ball is nearest to the middle bounds how far all points are from theirs. What is
-  /// farther is no candidate; of the others the nearest come first.
-  std::vector<Candidate> nearestOf(const std::vector<Candidate>& all, const Vec3& middle,
-    const std::vector<Vec3>& points, std::vector<double>& least) const
+  /// The one whose ball is nearest to the middle bounds how far all points are from theirs: what is
+  /// farther is no candidate.
+  void dropFar(const Vec3& middle, const std::vector<Vec3>& points,
+    std::vector<Candidate>& candidates, std::vector<double>& least) const
   {
-    if (all.empty())
+    if (areOfOnePiece(candidates))
     {
-      return {};
+      return;
     }
     double size = 0.0;
     for (const Vec3& p : points)
     {
       size = std::max(size, (p - middle).norm());
     }
-    std::vector<std::pair<double, std::size_t>> byDistance;
-    byDistance.reserve(all.size());
-    for (const Candidate& of : all)
+    std::vector<double> bounds;
+    bounds.reserve(candidates.size());
+    for (const Candidate& of : candidates)
     {
-      byDistance.emplace_back(of.leastDistance(middle), of.order);
+      bounds.push_back(of.leastDistance(middle));
     }
-    const Candidate& first = all[std::min_element(byDistance.begin(), byDistance.end())->second];
+    const Candidate first =
+      candidates[std::size_t(std::min_element(bounds.begin(), bounds.end()) - bounds.begin())];
     double most = 0.0;
     for (const Vec3& p : points)
     {
       least.push_back(this->distance(first, p));
       most = std::max(most, least.back());
     }
-    const auto isFar = [&](const std::pair<double, std::size_t>& of)
-    { return of.first - size / all[of.second].radius > most + kRounding; };
-    byDistance.erase(std::remove_if(byDistance.begin(), byDistance.end(), isFar), byDistance.end());
-    std::sort(byDistance.begin(), byDistance.end());
-    std::vector<Candidate> sorted;
-    sorted.reserve(byDistance.size());
-    for (const auto& [distance, order] : byDistance)
-    {
-      sorted.push_back(all[order]);
-    }
-    return sorted;
+    candidates.erase(std::remove_if(candidates.begin(), candidates.end(),
+                       [&](const Candidate& of)
+                       { return bounds[of.order] - size / of.radius > most + kRounding; }),
+      candidates.end());
   }
 
   double distance(const Candidate& of, const Vec3& p) const

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/polygonize/LevelBounds.h"
 
+#include "core/base/Parallel.h"
+
+#include <array>
 #include <queue>
 #include <vector>
 
@@ -29,31 +32,28 @@ bool findSide(const FieldSource& field, double level, const Box3& within, double
   const Outermost& side, double& found)
 {
   std::priority_queue<Box3, std::vector<Box3>, Outermost> boxes(side);
-  const auto push = [&](const Box3& box)
-  {
-    if (field.range(box).max >= level)
-    {
-      boxes.push(box);
-    }
-  };
-  push(within);
-  for (int count = 0; !boxes.empty(); ++count)
+  boxes.push(within);
+  for (int count = 0; !boxes.empty();)
   {
     const Box3 box = boxes.top();
+    boxes.pop();
+    if (field.range(box).max < level)
+    {
+      continue; // asked for no sooner: most boxes are never the outermost
+    }
     found = side(box);
-    if (count == kMostBoxes || box.sizes().maxCoeff() <= tolerance)
+    if (count++ == kMostBoxes || box.sizes().maxCoeff() <= tolerance)
     {
       return true;
     }
-    boxes.pop();
     Eigen::Index axis;
     box.sizes().maxCoeff(&axis);
     Box3 half = box;
     half.max()[axis] = box.center()[axis];
-    push(half);
+    boxes.push(half);
     half = box;
     half.min()[axis] = box.center()[axis];
-    push(half);
+    boxes.push(half);
   }
   return false;
 }
@@ -62,15 +62,27 @@ bool findSide(const FieldSource& field, double level, const Box3& within, double
 
 Box3 levelBounds(const FieldSource& field, double level, const Box3& within, double tolerance)
 {
+  constexpr std::size_t kSides = 6;
+  std::array<double, kSides> found{};
+  std::array<char, kSides> isFound{};
+  parallelFor(kSides, 1,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t k = begin; k < end; ++k)
+      {
+        const Outermost side{ static_cast<int>(k / 2), k % 2 != 0 };
+        isFound[k] = findSide(field, level, within, tolerance, side, found[k]) ? 1 : 0;
+      }
+    });
   Box3 result;
-  for (int axis = 0; axis < 3; ++axis)
+  for (std::size_t k = 0; k < kSides; k += 2)
   {
-    if (!findSide(field, level, within, tolerance, { axis, false }, result.min()[axis]) ||
-      !findSide(field, level, within, tolerance, { axis, true }, result.max()[axis]))
+    if (!isFound[k] || !isFound[k + 1])
     {
       return {};
     }
-    result.min()[axis] *= -1.0;
+    result.min()[static_cast<Eigen::Index>(k / 2)] = -found[k];
+    result.max()[static_cast<Eigen::Index>(k / 2)] = found[k + 1];
   }
   return result;
 }

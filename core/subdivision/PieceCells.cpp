@@ -3,6 +3,7 @@
 
 #include "core/base/Dependency.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -26,20 +27,22 @@ public:
     bool isSettled = true;
   };
 
-  Owner& at(const Index3& cell)
+  /// body(owner) for the cells from one to another.
+  template <typename Body>
+  void visit(const Index3& low, const Index3& high, Body&& body)
   {
-    const Index3 brick = brickOf(cell);
-    if (bricks_.empty() || brick != bricks_[last_].index)
+    const Index3 first = brickOf(low);
+    const Index3 last = brickOf(high);
+    for (std::int64_t z = first[2]; z <= last[2]; ++z)
     {
-      const auto [found, isNew] = places_.try_emplace(brick, bricks_.size());
-      if (isNew)
+      for (std::int64_t y = first[1]; y <= last[1]; ++y)
       {
-        bricks_.push_back({ brick, {} });
+        for (std::int64_t x = first[0]; x <= last[0]; ++x)
+        {
+          this->visitBrick({ x, y, z }, low, high, body);
+        }
       }
-      last_ = found->second;
     }
-    const auto place = [&](int axis) { return std::size_t(cell[axis] - kBrickSide * brick[axis]); };
-    return bricks_[last_].owners[(place(2) * kBrickSide + place(1)) * kBrickSide + place(0)];
   }
 
   PieceCells cells() const
@@ -72,29 +75,48 @@ private:
     std::array<Owner, kBrickPoints> owners;
   };
 
+  OwnedBrick& brick(const Index3& index)
+  {
+    if (bricks_.empty() || index != bricks_[last_].index)
+    {
+      const auto [found, isNew] = places_.try_emplace(index, bricks_.size());
+      if (isNew)
+      {
+        bricks_.push_back({ index, {} });
+      }
+      last_ = found->second;
+    }
+    return bricks_[last_];
+  }
+
+  /// Those of the cells that are in one brick.
+  template <typename Body>
+  void visitBrick(const Index3& index, const Index3& low, const Index3& high, Body&& body)
+  {
+    OwnedBrick& of = this->brick(index);
+    std::array<std::size_t, 3> begin, end;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const std::int64_t first = kBrickSide * index[axis];
+      begin[axis] = std::size_t(std::max(low[axis] - first, std::int64_t(0)));
+      end[axis] = std::size_t(std::min(high[axis] - first + 1, std::int64_t(kBrickSide)));
+    }
+    for (std::size_t z = begin[2]; z < end[2]; ++z)
+    {
+      for (std::size_t y = begin[1]; y < end[1]; ++y)
+      {
+        for (std::size_t x = begin[0]; x < end[0]; ++x)
+        {
+          body(of.owners[(z * kBrickSide + y) * kBrickSide + x]);
+        }
+      }
+    }
+  }
+
   std::size_t last_ = 0;
   std::vector<OwnedBrick> bricks_;
   std::unordered_map<Index3, std::size_t, Index3Hash> places_;
 };
-
-template <typename Visit>
-void visitCells(Box3 box, const CellGrid& grid, Visit&& visit)
-{
-  box.min().array() -= kMargin * grid.cellSize;
-  box.max().array() += kMargin * grid.cellSize;
-  const Index3 low = grid.cellAt(box.min());
-  const Index3 high = grid.cellAt(box.max());
-  for (std::int64_t z = low[2]; z <= high[2]; ++z)
-  {
-    for (std::int64_t y = low[1]; y <= high[1]; ++y)
-    {
-      for (std::int64_t x = low[0]; x <= high[0]; ++x)
-      {
-        visit(Index3{ x, y, z });
-      }
-    }
-  }
-}
 
 struct CellsKey
 {
@@ -135,11 +157,13 @@ PieceCells findPieceCells(
       { (piece.points[a] + piece.points[b] + piece.points[c]) / 3.0, piece.elements[a] });
   }
   const std::vector<double> values = fieldAt(field, centers);
-  const auto baseOf = [&](std::size_t t)
+  std::vector<Vec3> bases;
+  bases.reserve(piece.triangles.size());
+  for (const auto& [a, b, c] : piece.triangles)
   {
-    const auto& [a, b, c] = piece.triangles[t];
-    return Vec3((piece.bases[a] + piece.bases[b] + piece.bases[c]) / 3.0);
-  };
+    bases.push_back((piece.bases[a] + piece.bases[b] + piece.bases[c]) / 3.0);
+  }
+  const Vec3 margin = Vec3::Constant(kMargin * grid.cellSize);
   CellOwners owners;
   for (std::size_t t = 0; t < piece.triangles.size(); ++t)
   {
@@ -149,17 +173,15 @@ PieceCells findPieceCells(
     Box3 box(piece.points[a]);
     box.extend(piece.points[b]);
     box.extend(piece.points[c]);
-    const Vec3 base = baseOf(t);
     // Neighbours around a limb share their base; beyond its thickness begins another part.
-    const double apart = 2.0 * (centers[t].at - base).norm() + 2.0 * grid.cellSize;
-    visitCells(box, grid,
-      [&](const Index3& cell)
+    const double apart = 2.0 * (centers[t].at - bases[t]).norm() + 2.0 * grid.cellSize;
+    owners.visit(grid.cellAt(box.min() - margin), grid.cellAt(box.max() + margin),
+      [&](CellOwners::Owner& owner)
       {
-        CellOwners::Owner& owner = owners.at(cell);
         const bool isNew = owner.triangle == CellOwners::kNone;
         owner.triangle = isNew ? std::int32_t(t) : owner.triangle;
         owner.isSettled = owner.isSettled && isSettled &&
-          (isNew || (baseOf(std::size_t(owner.triangle)) - base).norm() < apart);
+          (isNew || (bases[std::size_t(owner.triangle)] - bases[t]).squaredNorm() < apart * apart);
       });
   }
   return owners.cells();

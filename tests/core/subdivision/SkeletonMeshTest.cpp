@@ -197,7 +197,8 @@ TEST(SkeletonMesh, AfterEditsIsTheMeshOfAColdStart)
 {
   SkeletonMeshOptions options;
   options.edgeLength = 0.17;
-  for (const BlendingKind blending : { BlendingKind::All, BlendingKind::Neighbours })
+  for (const BlendingKind blending :
+    { BlendingKind::All, BlendingKind::Neighbours, BlendingKind::Paper })
   {
     test::Random random(11);
     SkeletonGraph graph = test::alien();
