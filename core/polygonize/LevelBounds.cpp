@@ -13,6 +13,7 @@ namespace
 {
 
 constexpr int kMostBoxes = 4000; // of one side
+constexpr double kLarge = 32.0;  // tolerances: larger boxes are halved without a look
 
 // How far boxes go towards one side.
 struct Outermost
@@ -37,7 +38,7 @@ bool findSide(const FieldSource& field, double level, const Box3& within, double
   {
     const Box3 box = boxes.top();
     boxes.pop();
-    if (field.range(box).max < level)
+    if (box.sizes().maxCoeff() <= kLarge * tolerance && field.range(box).max < level)
     {
       continue; // asked for no sooner: most boxes are never the outermost
     }

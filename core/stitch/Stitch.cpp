@@ -2,7 +2,7 @@
 #include "core/stitch/Stitch.h"
 
 #include "core/base/DisjointSets.h"
-#include "core/base/Parallel.h"
+#include "core/base/LargestFirst.h"
 #include "core/base/RecentStore.h"
 #include "core/polygonize/MemoryBudget.h"
 #include "core/stitch/Assemble.h"
@@ -192,14 +192,16 @@ private:
   template <typename Body>
   void forEachWork(Body&& body)
   {
-    parallelFor(works_.size(), 1,
-      [&](std::size_t begin, std::size_t end)
+    std::vector<std::size_t> sizes;
+    for (const Work& work : works_)
+    {
+      sizes.push_back(work.cells.bricks().size());
+    }
+    forLargestFirst(sizes,
+      [&](std::size_t k)
       {
-        for (std::size_t k = begin; k < end; ++k)
-        {
-          progress_.check();
-          body(works_[k]);
-        }
+        progress_.check();
+        body(works_[k]);
       });
   }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/subdivision/PieceMeshes.h"
 
-#include "core/base/Parallel.h"
+#include "core/base/LargestFirst.h"
 
 #include <algorithm>
 #include <utility>
@@ -114,38 +114,44 @@ std::vector<PieceMeshPtr> pieceMeshes(const SkeletonField& skeleton,
   const PlacedField field{ skeleton.field, skeleton.elements, progress };
   const bool isKept = cache && skeleton.local;
   std::vector<PieceMeshPtr> result(pieces.size());
-  parallelFor(pieces.size(), 1,
-    [&](std::size_t begin, std::size_t end)
+  std::vector<std::size_t> sizes; // elements, a triangle for about two segments
+  for (const CurvePiece& curve : pieces.curves)
+  {
+    sizes.push_back(curve.segments.size() << skeleton.level);
+  }
+  for (const SurfacePiece& surface : pieces.surfaces)
+  {
+    sizes.push_back(surface.triangles.size() << (2 * skeleton.level + 1));
+  }
+  forLargestFirst(sizes,
+    [&](std::size_t k)
     {
-      for (std::size_t k = begin; k < end; ++k)
+      progress.check();
+      const bool isCurve = k < curves;
+      PieceKey key;
+      if (isKept)
       {
-        progress.check();
-        const bool isCurve = k < curves;
-        PieceKey key;
-        if (isKept)
-        {
-          key =
-            isCurve ? keys.ofCurve(pieces.curves[k]) : keys.ofSurface(pieces.surfaces[k - curves]);
-          result[k] = cache->find(key);
-        }
-        if (result[k])
-        {
-          continue;
-        }
-        const PieceCage cage = isCurve
-          ? curveCage(pieces.curves[k], skeleton.refined, skeleton.level, field)
-          : surfaceCage(pieces.surfaces[k - curves], skeleton.refined, skeleton.level, field);
-        auto mesh = std::make_shared<PieceMesh>(refineCage(cage, field, options, progress));
-        if (options.findSources)
-        {
-          skeleton.local->findSources(*mesh, progress);
-        }
-        result[k] = mesh;
-        if (isKept)
-        {
-          const std::size_t bytes = bytesOf(*mesh, key);
-          cache->keep(std::move(key), mesh, bytes);
-        }
+        key =
+          isCurve ? keys.ofCurve(pieces.curves[k]) : keys.ofSurface(pieces.surfaces[k - curves]);
+        result[k] = cache->find(key);
+      }
+      if (result[k])
+      {
+        return;
+      }
+      const PieceCage cage = isCurve
+        ? curveCage(pieces.curves[k], skeleton.refined, skeleton.level, field)
+        : surfaceCage(pieces.surfaces[k - curves], skeleton.refined, skeleton.level, field);
+      auto mesh = std::make_shared<PieceMesh>(refineCage(cage, field, options, progress));
+      if (options.findSources)
+      {
+        skeleton.local->findSources(*mesh, progress);
+      }
+      result[k] = mesh;
+      if (isKept)
+      {
+        const std::size_t bytes = bytesOf(*mesh, key);
+        cache->keep(std::move(key), mesh, bytes);
       }
     });
   return result;

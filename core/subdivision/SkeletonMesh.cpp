@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/subdivision/SkeletonMesh.h"
 
-#include "core/base/Parallel.h"
+#include "core/base/LargestFirst.h"
 #include "core/mesh/Dust.h"
 #include "core/subdivision/PieceCells.h"
 #include "core/subdivision/UncoveredCells.h"
@@ -122,14 +122,14 @@ CellSet cellsWherePiecesMeet(const std::vector<PieceMeshPtr>& pieces, const Skel
   const bool isWhole = skeleton.elements && !skeleton.elements->areOwnSums();
   const PlacedField placed(field, isWhole ? skeleton.elements : nullptr);
   std::vector<std::shared_ptr<const PieceCells>> found(pieces.size());
-  parallelFor(pieces.size(), 1,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (std::size_t k = begin; k < end; ++k)
-      {
-        found[k] = pieceCells(pieces[k], placed, 2.0 * refinement * kThreshold, grid);
-      }
-    });
+  std::vector<std::size_t> sizes;
+  for (const PieceMeshPtr& piece : pieces)
+  {
+    sizes.push_back(piece->triangles.size());
+  }
+  forLargestFirst(sizes,
+    [&](std::size_t k)
+    { found[k] = pieceCells(pieces[k], placed, 2.0 * refinement * kThreshold, grid); });
   SharedCells cells;
   CellSet marked;
   for (const std::shared_ptr<const PieceCells>& of : found)
