@@ -167,9 +167,12 @@ int vtkHybridTreeAlgorithm::RequestData(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   ++this->NumberOfExecutions;
-  this->CollectInputs(inputs);
-  const int done = hybridtree::runOnAll(
-    this, [&] { this->Run(outputs); }, [&] { Clear(outputs); });
+  const auto work = [&]
+  {
+    this->CollectInputs(inputs);
+    this->Run(outputs);
+  };
+  const int done = hybridtree::runOnAll(this, work, [&] { Clear(outputs); });
   this->ForgetInputs();
   if (!done)
   {
@@ -203,11 +206,27 @@ void vtkHybridTreeAlgorithm::CollectInputs(vtkInformationVector** inputs)
   data.assign(static_cast<std::size_t>(this->GetNumberOfInputPorts()), {});
   for (std::size_t port = 0; port < data.size(); ++port)
   {
-    for (int k = 0; k < inputs[port]->GetNumberOfInformationObjects(); ++k)
+    const int count = inputs[port]->GetNumberOfInformationObjects();
+    for (int k = 0; k < count; ++k)
     {
-      data[port].push_back(hybridtree::blocksOf(vtkDataObject::GetData(inputs[port], k)));
+      try
+      {
+        data[port].push_back(hybridtree::blocksOf(vtkDataObject::GetData(inputs[port], k)));
+      }
+      catch (const hybridtree::Error& error)
+      {
+        this->ComplainOfInput(port, count > 1 ? k + 1 : 0, error);
+      }
     }
   }
+}
+
+//------------------------------------------------------------------------------
+void vtkHybridTreeAlgorithm::ComplainOfInput(
+  std::size_t port, int number, const hybridtree::Error& error)
+{
+  throw hybridtree::InvalidGeometry(this->InputName(static_cast<int>(port)) +
+    (number > 0 ? " " + std::to_string(number) : std::string()) + ": " + error.what());
 }
 
 //------------------------------------------------------------------------------
@@ -273,9 +292,7 @@ std::vector<vtkHybridTreeAlgorithm::NodePtr> vtkHybridTreeAlgorithm::ReadPort(
     }
     catch (const hybridtree::Error& error)
     {
-      const std::string which = connections.size() > 1 ? " " + std::to_string(k + 1) : "";
-      throw hybridtree::InvalidGeometry(
-        this->InputName(static_cast<int>(port)) + which + ": " + error.what());
+      this->ComplainOfInput(port, connections.size() > 1 ? static_cast<int>(k) + 1 : 0, error);
     }
     const std::vector<NodePtr>& shapes = connections[k].nodes();
     takesMany ? void(nodes.insert(nodes.end(), shapes.begin(), shapes.end()))

@@ -45,6 +45,7 @@ class vtkInformationIntegerRequestKey;
 
 namespace hybridtree
 {
+class Error;
 class Node;
 class Progress;
 struct TriangleMesh;
@@ -180,6 +181,7 @@ private:
 #ifndef __VTK_WRAP__
   void CollectInputs(vtkInformationVector** inputs);
   void ForgetInputs();
+  [[noreturn]] void ComplainOfInput(std::size_t port, int number, const hybridtree::Error& error);
   void Run(vtkInformationVector* outputs);
   Operands ReadOperands(std::vector<std::string>& warnings);
   std::vector<NodePtr> ReadPort(std::size_t port, std::vector<std::string>& warnings);

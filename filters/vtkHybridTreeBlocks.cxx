@@ -104,8 +104,20 @@ bool isEmpty(const Block& block)
 
 } // namespace
 
+void requireGeometry(vtkDataObject* data)
+{
+  if (data && !vtkDataSet::SafeDownCast(data) && !vtkCompositeDataSet::SafeDownCast(data))
+  {
+    const bool table = data->GetDataObjectType() == VTK_TABLE;
+    throw InvalidGeometry(std::string("It is a ") + data->GetClassName() +
+      (table ? ", whose rows are no points yet. Apply Table To Points to it first."
+             : ", which has no points and cells of its own. Convert it to a data set first."));
+  }
+}
+
 std::vector<Block> blocksOf(vtkDataObject* input)
 {
+  requireGeometry(input); // of one type on all processes, so all of them stop here
   std::vector<Block> blocks;
   if (input)
   {
@@ -174,7 +186,7 @@ vtkPolyData* requireMesh(vtkDataSet* data)
 void takeComposite(vtkInformation* port)
 {
   port->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
-  port->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataSet");
+  port->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObject");
 }
 
 } // namespace hybridtree

@@ -34,7 +34,12 @@ struct Block
 /// all of them is a part of the whole in each, so the parts are joined, and everybody gets the
 /// same. Inputs with a tree of their own are the same everywhere and are not compared.
 /// \param input may be null, which gives no blocks.
+/// \throws InvalidGeometry as requireGeometry().
 HYBRIDTREEFILTERS_EXPORT std::vector<Block> blocksOf(vtkDataObject* input);
+
+/// \throws InvalidGeometry for a table and whatever else is neither a data set nor composite data,
+/// with what to do about it.
+HYBRIDTREEFILTERS_EXPORT void requireGeometry(vtkDataObject* data);
 
 /// All blocks as one data set, with those arrays that all of them have: the data set itself where
 /// there is one, else a polydata where all are, else an unstructured grid. Null without blocks.
@@ -43,8 +48,9 @@ HYBRIDTREEFILTERS_EXPORT vtkSmartPointer<vtkDataSet> joined(const std::vector<Bl
 /// The data set as a mesh. \throws InvalidGeometry that says how to make one of it.
 HYBRIDTREEFILTERS_EXPORT vtkPolyData* requireMesh(vtkDataSet* data);
 
-/// Lets an input port take composite data as well, whole instead of block by block; and data sets
-/// of every kind, so that requireMesh() can say more of those that are no mesh than VTK would.
+/// Lets an input port take composite data as well, whole instead of block by block; and data of
+/// every kind, so that requireMesh() and requireGeometry() can say more of those that are no mesh
+/// than VTK would.
 HYBRIDTREEFILTERS_EXPORT void takeComposite(vtkInformation* port);
 
 } // namespace hybridtree

@@ -155,6 +155,14 @@ int vtkHybridTreeProbe::RequestDataObject(
   vtkDataSet* output = vtkDataSet::GetData(outputs);
   if (!points)
   {
+    try
+    {
+      hybridtree::requireGeometry(vtkDataObject::GetData(inputs[1]));
+    }
+    catch (const hybridtree::Error& error)
+    {
+      vtkErrorMacro("Points: " << error.what());
+    }
     return 0;
   }
   if (!output || output->GetDataObjectType() != points->GetDataObjectType())
@@ -195,13 +203,12 @@ int vtkHybridTreeProbe::RequestData(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   vtkDataSet* output = vtkDataSet::GetData(outputs);
-  const auto blocks = hybridtree::blocksOf(vtkDataObject::GetData(inputs[0]));
   const auto probe = [&]
   {
     std::vector<std::string> warnings;
     try
     {
-      this->Internals->Tree.read(blocks, warnings);
+      this->Internals->Tree.read(hybridtree::blocksOf(vtkDataObject::GetData(inputs[0])), warnings);
     }
     catch (const hybridtree::Error& error)
     {

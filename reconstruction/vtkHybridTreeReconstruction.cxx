@@ -325,9 +325,9 @@ int vtkHybridTreeReconstruction::RequestData(
 {
   vtkInformation* info = outputs->GetInformationObject(0);
   vtkPolyData* output = vtkPolyData::GetData(info);
-  const auto blocks = hybridtree::blocksOf(vtkDataObject::GetData(inputs[0]));
   const auto work = [&]
   {
+    const auto blocks = hybridtree::blocksOf(vtkDataObject::GetData(inputs[0]));
     if (info->Get(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER()) > 0)
     {
       output->Initialize();

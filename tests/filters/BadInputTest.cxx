@@ -19,6 +19,7 @@
 #include "vtkImageData.h"
 #include "vtkPointData.h"
 #include "vtkSphereSource.h"
+#include "vtkTable.h"
 
 #include <gtest/gtest.h>
 
@@ -85,6 +86,14 @@ TEST(BadInput, WhatIsNoMeshIsToldHowToBecomeOne)
   vtkNew<vtkHybridTreeCurveSkeletons> curves;
   curves->SetInputDataObject(0, image);
   expectError(curves, { "vtkImageData", "Extract Surface" });
+
+  vtkNew<vtkTable> table;
+  vtkNew<vtkHybridTreeBlend> two;
+  two->AddInputConnection(ball()->GetOutputPort());
+  two->AddInputDataObject(0, table);
+  expectError(two, { "Input 2", "vtkTable", "Table To Points" });
+  curves->SetInputDataObject(0, table);
+  expectError(curves, { "vtkTable", "Table To Points" });
 }
 
 TEST(BadInput, Parameters)
