@@ -30,12 +30,12 @@ TriangleMesh latticeMesh(const Node& node, const CellGrid& grid, const Progress&
   PolygonizeOptions options;
   options.cellSize = grid.cellSize;
   options.origin = grid.origin;
-  TriangleMesh mesh = polygonize(node, bounds, options, ProgressPart(progress, 0.0, 0.9));
+  TriangleMesh mesh = polygonize(node, bounds, options, ProgressPart(progress, 0.0, 0.5));
   if (node.isFaceted())
   {
     smoothNormals(mesh);
   }
-  sharpenCreases(node, grid.lattice({}, {}), 0, mesh, progress);
+  sharpenCreases(node, grid.lattice({}, {}), 0, mesh, ProgressPart(progress, 0.5, 1.0));
   findSourceLeaves(node, mesh, 0, progress);
   return mesh;
 }

@@ -8,6 +8,7 @@
 #include "core/polygonize/NearSurface.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <optional>
 
@@ -336,6 +337,7 @@ std::vector<CreasePoint> findCreasePoints(const FieldSource& field, const Lattic
     return points;
   }
   const std::vector<std::size_t> ends = endsOfRuns(loops);
+  std::atomic<std::size_t> done(0);
   parallelFor(ends.size(), 1,
     [&](std::size_t from, std::size_t to)
     {
@@ -348,6 +350,7 @@ std::vector<CreasePoint> findCreasePoints(const FieldSource& field, const Lattic
         {
           PointFinder(*near, lattice, mesh, &loops[begin], count, leastAngle, &points[begin]).run();
         }
+        progress.report(static_cast<double>(++done) / static_cast<double>(ends.size()));
       }
     });
   return points;

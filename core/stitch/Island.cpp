@@ -103,7 +103,7 @@ private:
     if (options_.haveCreases)
     {
       sharpenCreases(field_, options_.grid.lattice({}, {}),
-        mesh.triangles.size() - patch.triangles.size(), mesh, progress_);
+        mesh.triangles.size() - patch.triangles.size(), mesh, ProgressPart(progress_, 0.5, 1.0));
     }
     std::copy(before.begin(), before.end(), mesh.normals.begin());
   }
@@ -182,7 +182,8 @@ private:
     border.vertexCount = static_cast<std::int32_t>(points.size());
     border.points = points.data();
     const MemoryBudget budget{ options_.maxBytes, options_.grid.cellSize };
-    return makePatch(field_, cells_, options_.grid, border, budget, progress_);
+    return makePatch(
+      field_, cells_, options_.grid, border, budget, ProgressPart(progress_, 0.0, 0.5));
   }
 
   std::int32_t pointCount(std::size_t p) const

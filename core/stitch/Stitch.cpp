@@ -125,6 +125,8 @@ struct Work
   LocalIslandKey localKey;
   std::optional<IslandCut> cut;
   std::shared_ptr<const Island> island;
+  double begin = 0.0; ///< its part in the progress of all islands
+  double end = 0.0;
 
   const std::vector<PartPoint>& rim() const { return island ? island->rim : cut->rim; }
 };
@@ -162,6 +164,7 @@ public:
                         : static_cast<std::size_t>(std::count_if(works_.begin(), works_.end(),
                             [](const Work& work) { return work.island != nullptr; }));
     made_ = true;
+    this->shareProgress();
     this->forEachWork([this](Work& work) { this->finish(work); });
   }
 
@@ -189,6 +192,23 @@ public:
   }
 
 private:
+  /// What is still to be made takes time by its cells.
+  void shareProgress()
+  {
+    double cells = 0.0;
+    for (Work& work : works_)
+    {
+      work.begin = cells;
+      cells += work.island ? 0.0 : static_cast<double>(work.cells.size());
+      work.end = cells;
+    }
+    for (Work& work : works_)
+    {
+      work.begin /= std::max(cells, 1.0);
+      work.end /= std::max(cells, 1.0);
+    }
+  }
+
   template <typename Body>
   void forEachWork(Body&& body)
   {
@@ -337,8 +357,9 @@ private:
       return;
     }
     const bool isLocal = work.local->areAllOf(*work.cut, options_.grid);
+    const ProgressPart progress(progress_, work.begin, work.end);
     work.island = std::make_shared<const Island>(makeIsland(
-      field_, work.near, work.parts, std::move(*work.cut), work.cells, options_, progress_));
+      field_, work.near, work.parts, std::move(*work.cut), work.cells, options_, progress));
     this->remember(work);
     if (isLocal)
     {
@@ -379,7 +400,8 @@ void markAround(const std::vector<Index3>& faults, int reach, CellSet& cells)
 std::optional<StitchedMesh> stitch(const IslandField& field, const std::vector<KeptPart>& parts,
   CellSet cells, const StitchOptions& options, const Progress& progress)
 {
-  Stitcher stitcher(field, parts, options, progress);
+  const ProgressPart making(progress, 0.0, 0.9);
+  Stitcher stitcher(field, parts, options, making);
   for (int round = 1; round <= options.maxRounds; ++round)
   {
     cells.fillDiagonals();

@@ -5,12 +5,14 @@
 #include "core/mesh/MeshChecks.h"
 #include "core/nodes/Blend.h"
 #include "core/nodes/Primitive.h"
+#include "core/skeletons/Box.h"
 #include "core/skeletons/Point.h"
 #include "core/skeletons/Segment.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <mutex>
 #include <set>
 
 namespace hybridtree
@@ -60,6 +62,36 @@ TEST(LatticeMesh, EdgesAreOfTheStatedLength)
     }
   }
   EXPECT_NEAR(sum / (3.0 * mesh.triangles.size()), 0.95 * length, 0.05 * length);
+}
+
+// Of a shape with creases most of the time goes into them, after all is sampled.
+TEST(LatticeMesh, ProgressGoesOnToTheEnd)
+{
+  class Recorder final : public Progress
+  {
+  public:
+    void report(double fraction) const override
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      fractions.insert(fraction);
+    }
+    mutable std::set<double> fractions{ 0.0, 1.0 };
+
+  private:
+    mutable std::mutex mutex_;
+  };
+  const Vec3 lengths(2.0, 1.0, 1.5);
+  const NodePtr box = makePrimitive(std::make_shared<BoxSkeleton>(Vec3(0.1, 0.2, 0.3), lengths),
+    Potential::bySurfaceRadius(0.0, 0.5, 2));
+  const Recorder recorder;
+  latticeMesh(*box, 0.03, recorder);
+  double last = 0.0;
+  for (const double fraction : recorder.fractions)
+  {
+    EXPECT_LE(fraction - last, 0.15) << "at " << last;
+    last = fraction;
+  }
+  EXPECT_EQ(last, 1.0);
 }
 
 TEST(LatticeMesh, VerticesLieOnTheSurfaceWithExactNormals)
