@@ -68,6 +68,10 @@ public:
   Patch run()
   {
     this->noteMisfits(alignBorderSigns(bricks_, crossings_));
+    for (PatchBrick& brick : bricks_.all())
+    {
+      bricks_.findCrossed(brick);
+    }
     PatchFaces(bricks_).decide(lattice_, progress_);
     makePatchVertices(bricks_, lattice_, border_.vertexCount, patch_, progress_);
     this->makeTriangles();
@@ -156,15 +160,15 @@ private:
 
   void fillCells(const PatchBrick& brick, BrickWork& work)
   {
-    brick.forEachCell(
+    BrickBits withSurface = brick.mixed;
+    for (int z = 0; z < kBrickSide; ++z)
+    {
+      withSurface[z] |= brick.busy[z] & brick.cells[z];
+    }
+    PatchBrick::forEachCell(withSurface,
       [&](const std::array<int, 3>& cell)
       {
         const unsigned signs = bricks_.caseOf(brick, cell);
-        const bool hasLine = PatchBrick::has(brick.busy, cell[0], cell[1], cell[2]);
-        if ((signs == 0 || signs == 0xff) && !hasLine)
-        {
-          return; // no surface
-        }
         const bool joins = PatchFaces(bricks_).anyJoined(brick, cell, signs);
         if (!joins && this->isInner(brick, cell))
         {

@@ -158,6 +158,47 @@ void PatchBricks::findBits(PatchBrick& brick) const
   }
 }
 
+/// Sides of a layer of points, in the brick so many beyond along x and y; z up to the side of one.
+std::uint64_t PatchBricks::sides(const PatchBrick& brick, int dx, int dy, int z) const
+{
+  const std::int32_t near = brick.near[(1 + dx) + 3 * (1 + dy) + 9 * (1 + z / kBrickSide)];
+  return near < 0 ? 0 : bricks_[near].inside[z % kBrickSide];
+}
+
+void PatchBricks::findCrossed(PatchBrick& brick) const
+{
+  constexpr std::uint64_t kLast = 0x8080808080808080u; // of each row
+  const auto alongX = [](std::uint64_t row, std::uint64_t next)
+  { return (row >> 1 & ~kLast) | (next << (kBrickSide - 1) & kLast); };
+  const auto alongY = [](std::uint64_t layer, std::uint64_t next)
+  { return layer >> kBrickSide | next << (kBrickSide * (kBrickSide - 1)); };
+  std::uint64_t any = 0; // of the layer before: cells with a corner inside there,
+  std::uint64_t all = 0; // and those with all four
+  std::uint64_t before = 0;
+  for (int z = 0; z <= kBrickSide; ++z)
+  {
+    const std::uint64_t here = this->sides(brick, 0, 0, z);
+    const std::uint64_t beyond = this->sides(brick, 0, 1, z);
+    const std::uint64_t nextX = alongX(here, this->sides(brick, 1, 0, z));
+    const std::uint64_t nextXY = alongX(beyond, this->sides(brick, 1, 1, z));
+    const std::uint64_t anyHere = here | nextX | alongY(here | nextX, beyond | nextXY);
+    const std::uint64_t allHere = here & nextX & alongY(here & nextX, beyond & nextXY);
+    if (z > 0)
+    {
+      brick.crossed[2][z - 1] = brick.inner[2][z - 1] & (before ^ here);
+      brick.mixed[z - 1] = brick.cells[z - 1] & (any | anyHere) & ~(all & allHere);
+    }
+    if (z < kBrickSide)
+    {
+      brick.crossed[0][z] = brick.inner[0][z] & (here ^ nextX);
+      brick.crossed[1][z] = brick.inner[1][z] & (here ^ alongY(here, beyond));
+    }
+    before = here;
+    any = anyHere;
+    all = allHere;
+  }
+}
+
 /// Up to some number of points and a few bricks wide, so that the field can still be narrowed.
 void PatchBricks::findRuns()
 {

@@ -22,6 +22,7 @@ struct PatchBrick
   std::array<BrickBits, 3> joined{};  ///< [axis]: the ambiguous face from a point, across the axis,
                                       ///< has its inside corners joined (AmbiguousFaces.h)
   std::array<BrickBits, 3> crossed{}; ///< of the inner ones, those that have a vertex
+  BrickBits mixed{};                  ///< marked cells with corners on both sides
   std::array<std::int32_t, 27>
     near{};                  ///< number of the brick at offset (n % 3, n / 3 % 3, n / 9) - 1
   std::vector<float> values; ///< f - T at the points, where it was sampled
@@ -46,13 +47,13 @@ struct PatchBrick
     };
     return square(bits[z]) | square(bits[z + 1]) << 4;
   }
-  /// Calls body(cell), with its place in the brick, for the marked cells.
+  /// Calls body(cell), with its place in the brick, for the cells that are set.
   template <class Body>
-  void forEachCell(Body&& body) const
+  static void forEachCell(const BrickBits& bits, Body&& body)
   {
     for (int z = 0; z < kBrickSide; ++z)
     {
-      for (std::uint64_t word = cells[z]; word != 0; word &= word - 1)
+      for (std::uint64_t word = bits[z]; word != 0; word &= word - 1)
       {
         const int n = CellSet::lowestBit(word);
         body(std::array<int, 3>{ n % kBrickSide, n / kBrickSide, z });
@@ -109,9 +110,14 @@ public:
   unsigned caseOf(const PatchBrick& brick, const std::array<int, 3>& cell); ///< of marching cubes
   ///@}
 
+  /// Fills in which inner edges of a brick are crossed and which cells are mixed, once the sides of
+  /// all points are known.
+  void findCrossed(PatchBrick& brick) const;
+
 private:
   void addBricks(const CellSet& cells);
   void findBits(PatchBrick& brick) const;
+  std::uint64_t sides(const PatchBrick& brick, int dx, int dy, int z) const;
   void findRuns();
   void sample(const Run& run, const FieldSource& field, const Lattice& lattice);
 

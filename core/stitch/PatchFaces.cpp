@@ -29,7 +29,7 @@ void PatchFaces::decide(PatchBrick& brick, const Lattice& lattice)
   const MarchingCubesTable& table = MarchingCubesTable::instance();
   std::vector<AmbiguousFace> faces;
   std::vector<int> bits;
-  brick.forEachCell(
+  PatchBrick::forEachCell(brick.mixed,
     [&](const std::array<int, 3>& cell)
     {
       const unsigned signs = bricks_.caseOf(brick, cell);

@@ -45,28 +45,7 @@ private:
 
   void countVertices()
   {
-    this->forEachBrick(
-      [&](PatchBrick& brick, std::size_t)
-      {
-        for (unsigned axis = 0; axis < 3; ++axis)
-        {
-          for (int z = 0; z < kBrickSide; ++z)
-          {
-            for (std::uint64_t word = brick.inner[axis][z]; word != 0; word &= word - 1)
-            {
-              const std::uint64_t bit = word & (~word + 1);
-              const int n = CellSet::lowestBit(bit);
-              const int x = n % kBrickSide;
-              const int y = n / kBrickSide;
-              const bool low = PatchBrick::has(brick.inside, x, y, z);
-              const bool high =
-                bricks_.isInside(brick, x + (axis == 0), y + (axis == 1), z + (axis == 2));
-              brick.crossed[axis][z] |= low != high ? bit : 0;
-            }
-          }
-        }
-        brick.countVertices();
-      });
+    this->forEachBrick([&](PatchBrick& brick, std::size_t) { brick.countVertices(); });
     std::int64_t count = first_;
     for (PatchBrick& brick : bricks_.all())
     {
