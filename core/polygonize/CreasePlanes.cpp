@@ -19,18 +19,53 @@ TouchingPlane TouchingPlane::of(const Vec3& at, double value, const Vec3& gradie
   return { gradient / -slope, at, (value - kThreshold) / slope, slope };
 }
 
-Meeting meetingOf(const TouchingPlanes& planes, const Vec3& near, double reach)
+namespace
+{
+
+/// Of the sum of the squared distances to planes: axes by rising eigenvalues.
+struct Axes
+{
+  Vec3 values;
+  Mat3 vectors;
+};
+
+Axes axesOf(const TouchingPlanes& planes)
 {
   Mat3 squares = Mat3::Zero();
-  Vec3 sum = Vec3::Zero();
   for (const TouchingPlane& plane : planes)
   {
     squares += plane.normal * plane.normal.transpose();
+  }
+  const Eigen::SelfAdjointEigenSolver<Mat3> solver(squares);
+  return { solver.eigenvalues(), solver.eigenvectors() };
+}
+
+/// Of two, by their halves: unit normals have their mean, and their difference, as axes.
+Axes axesOf(const TouchingPlane& a, const TouchingPlane& b)
+{
+  const double cosine = a.normal.dot(b.normal);
+  const Vec3 sum = a.normal + b.normal;
+  const Vec3 difference = a.normal - b.normal;
+  const Vec3& large = cosine >= 0.0 ? sum : difference;
+  const Vec3& small = cosine >= 0.0 ? difference : sum;
+  Axes axes;
+  axes.values = { 0.0, 1.0 - std::abs(cosine), 1.0 + std::abs(cosine) };
+  axes.vectors.col(2) = large.normalized();
+  axes.vectors.col(1) = small.normalized();
+  axes.vectors.col(0) = axes.vectors.col(1).cross(axes.vectors.col(2));
+  return axes;
+}
+
+} // namespace
+
+Meeting meetingOf(const TouchingPlanes& planes, const Vec3& near, double reach)
+{
+  Vec3 sum = Vec3::Zero();
+  for (const TouchingPlane& plane : planes)
+  {
     sum -= plane.normal * plane.distance(near);
   }
-  const Eigen::SelfAdjointEigenSolver<Mat3> solver(squares); // eigenvalues rise
-  const Vec3& value = solver.eigenvalues();
-  const Mat3& axis = solver.eigenvectors();
+  const auto [value, axis] = planes.size() == 2 ? axesOf(planes[0], planes[1]) : axesOf(planes);
   if (!(value[1] > kEdgeRank * value[2]))
   {
     return {};
