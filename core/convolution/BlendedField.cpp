@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <limits>
 #include <numeric>
 
@@ -68,6 +69,24 @@ void clear(std::size_t count, double* value, VectorBatch gradient)
   for (double* array : { value, gradient.x, gradient.y, gradient.z })
   {
     std::fill_n(array, count, 0.0);
+  }
+}
+
+// What faded() does, to sums of the Cauchy kernel. Mostly nothing: that is told without branches.
+void fade(std::size_t count, double* value, const VectorBatch* gradient)
+{
+  std::uint64_t fading = 0;
+  for (std::size_t k = 0; k < count; ++k)
+  {
+    fading += value[k] <= 2.0 * kFadeEnd ? 1 : 0;
+  }
+  for (std::size_t k = 0; fading > 0 && k < count; ++k)
+  {
+    if (gradient)
+    {
+      gradient->set(k, fadedSlope(value[k]) * (*gradient)[k]);
+    }
+    value[k] = faded(value[k]);
   }
 }
 
@@ -245,21 +264,9 @@ void BlendedField::ownSum(std::int32_t group, const BlendSelection* selection, P
   {
     this->ownBlend(group, selection, points, value, gradient);
   }
-  if (this->kernel().kind != KernelKind::Cauchy)
+  if (this->kernel().kind == KernelKind::Cauchy)
   {
-    return;
-  }
-  for (std::size_t k = 0; k < points.size; ++k)
-  {
-    if (value[k] > 2.0 * kFadeEnd)
-    {
-      continue;
-    }
-    if (gradient)
-    {
-      gradient->set(k, fadedSlope(value[k]) * (*gradient)[k]);
-    }
-    value[k] = faded(value[k]);
+    fade(points.size, value, gradient);
   }
 }
 

@@ -24,28 +24,29 @@ struct CauchyLine
   /// \pre a >= 1; low <= high.
   HWY_INLINE CauchyLine(V a, V low, V high)
   {
-    const V four = set(4.0);
+    const V four = set(kNumbers.four);
     // One division for three; so far away that their product ends all is 0 in any case.
-    const V farthest = set(1e90);
+    const V farthest = set(kNumbers.farthest);
     const V middle = hn::Min(a, farthest);
     const V atLow = hn::Min(hn::MulAdd(hn::Mul(four, low), low, a), farthest);
     const V atHigh = hn::Min(hn::MulAdd(hn::Mul(four, high), high, a), farthest);
     const V product = hn::Mul(atLow, atHigh);
-    const V inverses = hn::Div(set(1.0), hn::Mul(product, middle));
+    const V inverses = hn::Div(set(kNumbers.one), hn::Mul(product, middle));
     const V inverse = hn::Mul(inverses, product);
     first = hn::Mul(inverses, hn::Mul(atHigh, middle));
     second = hn::Mul(inverses, hn::Mul(atLow, middle));
     // (atan(high s) - atan(low s)) / s, s = 2 / sqrt(a).
     const V root = hn::Sqrt(middle);
-    const V half = hn::Mul(set(0.5), hn::Mul(root, inverse));
+    const V half = hn::Mul(set(kNumbers.half), hn::Mul(root, inverse));
     single = hn::Mul(half,
       angleOf(hn::MulAdd(hn::Mul(four, low), high, middle),
         hn::Mul(hn::Add(root, root), hn::Max(hn::Sub(high, low), hn::Zero(D())))));
     const V ends = hn::MulSub(high, second, hn::Mul(low, first));
-    twice = hn::Mul(hn::Mul(set(0.5), inverse), hn::Add(ends, single));
+    twice = hn::Mul(hn::Mul(set(kNumbers.half), inverse), hn::Add(ends, single));
     const V squares =
       hn::MulSub(hn::Mul(high, second), second, hn::Mul(hn::Mul(low, first), first));
-    thrice = hn::Mul(hn::Mul(set(0.25), inverse), hn::MulAdd(set(3.0), twice, squares));
+    thrice = hn::Mul(
+      hn::Mul(set(kNumbers.quarter), inverse), hn::MulAdd(set(kNumbers.three), twice, squares));
   }
 };
 
@@ -66,7 +67,7 @@ struct CauchySegmentIntegral
     const CauchyLine line = lineOf(view);
     value = hn::Add(value, line.twice);
     addSegmentGradient(element, view,
-      { hn::Mul(set(8.0), line.thrice), hn::Neg(hn::Mul(line.first, line.first)),
+      { hn::Mul(set(kNumbers.eight), line.thrice), hn::Neg(hn::Mul(line.first, line.first)),
         hn::Mul(line.second, line.second) },
       gx, gy, gz);
   }
@@ -74,7 +75,8 @@ struct CauchySegmentIntegral
 private:
   static HWY_INLINE CauchyLine lineOf(const SegmentView& view)
   {
-    return CauchyLine(hn::NegMulAdd(set(4.0), view.q, set(5.0)), view.y0, view.y1);
+    return CauchyLine(
+      hn::NegMulAdd(set(kNumbers.four), view.q, set(kNumbers.five)), view.y0, view.y1);
   }
 };
 

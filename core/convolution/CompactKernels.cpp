@@ -195,10 +195,10 @@ struct CompactTriangleIntegral
       {
         return zero; // all of the triangle is in the disc
       }
-      const V full = set(4.0 * kHalfPi);
+      const V full = set(4.0 * kNumbers.halfPi);
       const V angle = angleOf(x, hn::Abs(y));
       V sum = hn::IfThenElse(hn::Lt(y, zero), hn::Sub(full, angle), angle);
-      sum = hn::IfThenElseZero(hn::Lt(sum, set(4.0 * kHalfPi - 1e-9)), sum);
+      sum = hn::IfThenElseZero(hn::Lt(sum, set(4.0 * kNumbers.halfPi - 1e-9)), sum);
       return hn::IfThenElse(isWhole, full, sum);
     }
 

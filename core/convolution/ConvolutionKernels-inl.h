@@ -21,36 +21,32 @@ namespace HWY_NAMESPACE
 
 // Keeps 1 / (R_p^2 + slope^2 h^2) finite at the one point where it is 0.
 constexpr double kSmallestSquare = 1e-280;
-constexpr double kHalfPi = 1.57079632679489661923;
 
 // The angle of (x, y) to the first axis, y >= 0: 0 to pi, as atan2(y, x) within 3e-16. One
 // division, where differences of arcus tangents take one for each of these and more within them.
 HWY_INLINE V angleOf(V x, V y)
 {
-  // atan(t) / t on [0, 1] as a polynomial in t^2: Chebyshev's interpolation, error 3e-17. Even and
-  // odd powers by themselves: half as long a chain.
-  constexpr double kEven[] = { 1.0, 0.1999999999964796, 0.11111110578002083, 0.07692198997458294,
-    0.058768281144872724, 0.04668745304848529, 0.03387126702700675, 0.01671959606350739,
-    0.003751138483965141, 0.00021423810738603946 };
-  constexpr double kOdd[] = { -0.333333333333307, -0.14285714266926733, -0.09090899793217341,
-    -0.06665764910689723, -0.052374234719188166, -0.040811247503178855, -0.02556862364437174,
-    -0.00899108054265826, -0.0011252544302234645, -1.93423475928923e-05 };
+  // Even and odd powers by themselves: half as long a chain.
+  const auto& even = kNumbers.evenPowers;
+  const auto& odd = kNumbers.oddPowers;
   const V across = hn::Abs(x);
   const auto isSteep = hn::Gt(y, across);
   const V larger = hn::Max(hn::Max(y, across), set(1e-300));
   const V t = hn::Div(hn::Min(y, across), larger);
   const V square = hn::Mul(t, t);
   const V fourth = hn::Mul(square, square);
-  V even = set(kEven[9]);
-  V odd = set(kOdd[9]);
+  V evenSum = set(even[9]);
+  V oddSum = set(odd[9]);
   for (int k = 8; k >= 0; --k)
   {
-    even = hn::MulAdd(even, fourth, set(kEven[k]));
-    odd = hn::MulAdd(odd, fourth, set(kOdd[k]));
+    evenSum = hn::MulAdd(evenSum, fourth, set(even[k]));
+    oddSum = hn::MulAdd(oddSum, fourth, set(odd[k]));
   }
-  V angle = hn::Mul(t, hn::MulAdd(odd, square, even));
-  angle = hn::IfThenElse(isSteep, hn::Sub(set(kHalfPi), angle), angle);
-  return hn::IfThenElse(hn::Lt(x, hn::Zero(D())), hn::Sub(set(2.0 * kHalfPi), angle), angle);
+  V angle = hn::Mul(t, hn::MulAdd(oddSum, square, evenSum));
+  const V quarterTurn = set(kNumbers.halfPi);
+  angle = hn::IfThenElse(isSteep, hn::Sub(quarterTurn, angle), angle);
+  return hn::IfThenElse(
+    hn::Lt(x, hn::Zero(D())), hn::Sub(hn::Add(quarterTurn, quarterTurn), angle), angle);
 }
 
 // Whether no point is within an element's ball.
@@ -76,7 +72,7 @@ struct SegmentView
     const V rx = hn::Sub(x, set(element.start[0]));
     const V ry = hn::Sub(y, set(element.start[1]));
     const V rz = hn::Sub(z, set(element.start[2]));
-    const V one = set(1.0);
+    const V one = set(kNumbers.one);
     along = dot(element.direction, rx, ry, rz);
     px = hn::NegMulAdd(along, set(element.direction[0]), rx);
     py = hn::NegMulAdd(along, set(element.direction[1]), ry);

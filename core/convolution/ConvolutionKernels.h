@@ -64,6 +64,17 @@ struct ConvolutionKernels
     PointBatch, double* sum, VectorBatch gradientSum);
 };
 
+/// Numbers in the inner loops. Compilers that know them set up a vector for each ahead of every
+/// loop, which takes as long as half of an element; so they are told only where to read them. (No
+/// default values: with these they would read them again and again.)
+struct KernelNumbers
+{
+  /// atan(t) / t on [0, 1] as a polynomial in t^2: Chebyshev's interpolation, error 3e-17.
+  double evenPowers[10], oddPowers[10];
+  double eighth, quarter, half, one, three, four, five, eight, halfPi, farthest;
+};
+extern const KernelNumbers kNumbers;
+
 /// Those of the kernel for the widest vector instructions of this processor.
 const ConvolutionKernels& convolutionKernels(KernelKind kind);
 const ConvolutionKernels& compactConvolutionKernels();

@@ -159,6 +159,7 @@ struct AddSharedBody
 {
   const SharedElements* begin;
   const SharedElements* end;
+  bool haveTriangles;
   Segments segments;
   Triangles triangles;
   double segmentAmplitude;
@@ -171,56 +172,72 @@ struct AddSharedBody
     const V x = hn::LoadU(d, px);
     const V y = hn::LoadU(d, py);
     const V z = hn::LoadU(d, pz);
-    Sample<Rows> total;
-    this->addOwn(*begin, x, y, z, total);
-    for (const SharedElements* part = begin + 1; part != end; ++part)
+    addParts<SegmentElement>(segments, segmentAmplitude, x, y, z, out);
+    if (haveTriangles)
     {
-      const V u = hn::Add(dot(part->slope, x, y, z), set(part->offset));
+      addParts<TriangleElement>(triangles, triangleAmplitude, x, y, z, out);
+    }
+  }
+
+private:
+  static const ElementSpan<SegmentElement>& listOf(
+    const SharedElements& part, const SegmentElement*)
+  {
+    return part.segments;
+  }
+  static const ElementSpan<TriangleElement>& listOf(
+    const SharedElements& part, const TriangleElement*)
+  {
+    return part.triangles;
+  }
+
+  template <class Element, class Integral>
+  HWY_INLINE void addParts(const Integral& integral, double amplitude, V x, V y, V z,
+    const std::array<double*, Rows>& out) const
+  {
+    const D d;
+    Sample<Rows> total;
+    for (const SharedElements* part = begin; part != end; ++part)
+    {
+      const V u = parameter(*part, x, y, z);
+      const ElementSpan<Element>& list = listOf(*part, static_cast<const Element*>(nullptr));
       if (hn::AllTrue(d, hn::Ge(u, set(1.0))))
       {
         continue; // counts nothing
       }
       Sample<Rows> own;
-      this->addOwn(*part, x, y, z, own);
-      addShare(*part, hn::Min(hn::Max(u, hn::Zero(d)), set(1.0)), own, total);
-    }
-    for (std::size_t row = 0; row < Rows; ++row)
-    {
-      hn::StoreU(hn::Add(total.rows[row], hn::LoadU(d, out[row])), d, out[row]);
-    }
-  }
-
-private:
-  HWY_INLINE void addOwn(const SharedElements& part, V x, V y, V z, Sample<Rows>& sum) const
-  {
-    addScaled(part.segments, segments, segmentAmplitude, x, y, z, sum);
-    if (part.triangles.count > 0)
-    {
-      addScaled(part.triangles, triangles, triangleAmplitude, x, y, z, sum);
-    }
-  }
-
-  template <class Element, class Integral>
-  static HWY_INLINE void addScaled(const ElementSpan<Element>& span, const Integral& integral,
-    double amplitude, V x, V y, V z, Sample<Rows>& sum)
-  {
-    Sample<Rows> unscaled;
-    for (std::size_t k = 0; k < span.count; ++k)
-    {
-      if constexpr (Rows == 1)
+      for (std::size_t k = 0; k < list.count; ++k)
       {
-        integral.add(*span.elements[k], x, y, z, unscaled.rows[0]);
+        if constexpr (Rows == 1)
+        {
+          integral.add(*list.elements[k], x, y, z, own.rows[0]);
+        }
+        else
+        {
+          integral.addWithGradient(
+            *list.elements[k], x, y, z, own.rows[0], own.rows[1], own.rows[2], own.rows[3]);
+        }
+      }
+      if (part == begin)
+      {
+        total = own;
       }
       else
       {
-        integral.addWithGradient(*span.elements[k], x, y, z, unscaled.rows[0], unscaled.rows[1],
-          unscaled.rows[2], unscaled.rows[3]);
+        addShare(*part, u, own, total);
       }
     }
     for (std::size_t row = 0; row < Rows; ++row)
     {
-      sum.rows[row] = hn::MulAdd(set(amplitude), unscaled.rows[row], sum.rows[row]);
+      hn::StoreU(hn::MulAdd(set(amplitude), total.rows[row], hn::LoadU(d, out[row])), d, out[row]);
     }
+  }
+
+  // 0 to 1.
+  static HWY_INLINE V parameter(const SharedElements& part, V x, V y, V z)
+  {
+    const V u = hn::Add(dot(part.slope, x, y, z), set(part.offset));
+    return hn::Min(hn::Max(u, hn::Zero(D())), set(1.0));
   }
 
   static HWY_INLINE void addShare(
@@ -268,8 +285,10 @@ private:
   static AddSharedBody<Segments, Triangles, Rows> body(
     const std::vector<SharedElements>& parts, const ConvolutionKernel& kernel)
   {
-    return { parts.data(), parts.data() + parts.size(), Segments(kernel), Triangles(kernel),
-      segmentAmplitude(kernel), triangleAmplitude(kernel) };
+    const bool haveTriangles = std::any_of(parts.begin(), parts.end(),
+      [](const SharedElements& part) { return part.triangles.count > 0; });
+    return { parts.data(), parts.data() + parts.size(), haveTriangles, Segments(kernel),
+      Triangles(kernel), segmentAmplitude(kernel), triangleAmplitude(kernel) };
   }
 };
 
