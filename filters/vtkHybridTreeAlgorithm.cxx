@@ -2,6 +2,7 @@
 #include "vtkHybridTreeAlgorithm.h"
 
 #include "core/base/Error.h"
+#include "core/mesh/SharpShare.h"
 #include "core/mesh/TriangleMesh.h"
 #include "core/nodes/MeshLimits.h"
 #include "core/nodes/Node.h"
@@ -112,10 +113,35 @@ void vtkHybridTreeAlgorithm::SetEdgeLength(double length)
   {
     return;
   }
-  const bool nodeIsCurrent = this->Internals->NodeTime == this->GetMTime();
   this->EdgeLength = length;
+  if (this->NodeDependsOnEdgeLength())
+  {
+    this->Modified();
+  }
+  else
+  {
+    this->ModifiedButTheNode();
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkHybridTreeAlgorithm::SetPointNormals(int when)
+{
+  when = std::clamp(when, int(NORMALS_AUTOMATIC), int(NORMALS_NEVER));
+  if (when != this->PointNormals)
+  {
+    this->PointNormals = when;
+    this->ModifiedButTheNode();
+  }
+}
+
+//------------------------------------------------------------------------------
+// For what the node does not depend on: it stays, with all that it has computed.
+void vtkHybridTreeAlgorithm::ModifiedButTheNode()
+{
+  const bool nodeIsCurrent = this->Internals->NodeTime == this->GetMTime();
   this->Modified();
-  if (nodeIsCurrent && !this->NodeDependsOnEdgeLength())
+  if (nodeIsCurrent)
   {
     this->Internals->NodeTime = this->GetMTime();
   }
@@ -343,13 +369,21 @@ void vtkHybridTreeAlgorithm::WriteOutput(
     ++this->NumberOfMeshings;
     const MeshPtr mesh = this->MakeMesh(*state.Node, progress);
     this->WarnOfLostShape(*mesh);
-    hybridtree::toPolyData(mesh, output);
+    hybridtree::toPolyData(mesh, this->NeedsNormals(*mesh), output);
     this->Warn(hybridtree::passArrays(arrays, leaves, *mesh, output));
   }
   hybridtree::putNames(leaves, output->GetFieldData());
   hybridtree::putArrays(arrays, leaves, output->GetFieldData());
   vtkHybridTreeArray::PutTree(state.Node, output);
   reuseArrays(state.FieldArrays, output->GetFieldData());
+}
+
+//------------------------------------------------------------------------------
+bool vtkHybridTreeAlgorithm::NeedsNormals(const hybridtree::TriangleMesh& mesh) const
+{
+  constexpr double most = 0.25;
+  return this->PointNormals == NORMALS_ALWAYS ||
+    (this->PointNormals == NORMALS_AUTOMATIC && !(hybridtree::sharpShare(mesh) > most));
 }
 
 //------------------------------------------------------------------------------
@@ -434,6 +468,7 @@ void vtkHybridTreeAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "EdgeLength: " << this->EdgeLength << "\n";
+  os << indent << "PointNormals: " << this->PointNormals << "\n";
   os << indent << "NumberOfExecutions: " << this->NumberOfExecutions << "\n";
   os << indent << "NumberOfMeshings: " << this->NumberOfMeshings << "\n";
 }

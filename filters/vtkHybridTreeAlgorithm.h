@@ -5,7 +5,7 @@
  *
  * A node of the tree is one filter. Its output is the closed triangle mesh of the shape (points in
  * double precision), with
- * - point data Normals: unit, outward, from the gradient of the field;
+ * - point data Normals: unit, outward, from the gradient of the field; see PointNormals for when;
  * - cell data SourceId: index of the leaf a triangle comes from, in depth-first order of the tree,
  * -1 where leaves blend; and a field-data array SourceNames, the name of each leaf;
  * - the arrays of mesh inputs where their triangles survive: interpolated at vertices (real
@@ -64,6 +64,26 @@ public:
    */
   virtual void SetEdgeLength(double length);
   vtkGetMacro(EdgeLength, double);
+  ///@}
+
+  enum PointNormalsType
+  {
+    NORMALS_AUTOMATIC = 0,
+    NORMALS_ALWAYS = 1,
+    NORMALS_NEVER = 2
+  };
+
+  ///@{
+  /**
+   * Whether the output has point normals. Points are shared, so at a sharp edge one normal serves
+   * both sides and smears the shading over the triangles there; without normals each triangle is
+   * shaded as the plane that it is. NORMALS_AUTOMATIC (0, default): not where more than a quarter
+   * of the area is in triangles with a corner whose normal is over 40 degrees off their own, as on
+   * drilled plates with their large triangles; scans, blends and fine meshes have them.
+   * NORMALS_ALWAYS (1), NORMALS_NEVER (2). Does not change the shape.
+   */
+  virtual void SetPointNormals(int when);
+  vtkGetMacro(PointNormals, int);
   ///@}
 
   enum FormulationType
@@ -173,6 +193,7 @@ protected:
   int ModifyRequest(vtkInformation* request, int when) override;
 
   double EdgeLength = 0.0;
+  int PointNormals = NORMALS_AUTOMATIC;
 
 private:
   vtkHybridTreeAlgorithm(const vtkHybridTreeAlgorithm&) = delete;
@@ -186,6 +207,8 @@ private:
   Operands ReadOperands(std::vector<std::string>& warnings);
   std::vector<NodePtr> ReadPort(std::size_t port, std::vector<std::string>& warnings);
   void UpdateNode();
+  void ModifiedButTheNode();
+  bool NeedsNormals(const hybridtree::TriangleMesh& mesh) const;
   void WriteOutput(vtkPolyData* output, bool withMesh, const hybridtree::Progress& progress);
   void Warn(const std::vector<std::string>& warnings);
   void WarnOfLostShape(const hybridtree::TriangleMesh& mesh);

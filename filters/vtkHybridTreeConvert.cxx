@@ -392,7 +392,7 @@ ConvertedMesh toMesh(vtkPolyData* input)
   return converted;
 }
 
-void toPolyData(const MeshPtr& mesh, vtkPolyData* output)
+void toPolyData(const MeshPtr& mesh, bool withNormals, vtkPolyData* output)
 {
   vtkNew<vtkPoints> points;
   points->SetDataType(VTK_DOUBLE);
@@ -403,7 +403,7 @@ void toPolyData(const MeshPtr& mesh, vtkPolyData* output)
   }
   output->SetPoints(points);
   output->SetPolys(trianglesOf(mesh));
-  if (!mesh->normals.empty())
+  if (withNormals && !mesh->normals.empty())
   {
     output->GetPointData()->SetNormals(
       sharedArray(mesh->normals.front().data(), 3, mesh->normals.size(), mesh, "Normals"));

@@ -40,9 +40,9 @@ struct ConvertedMesh
 /// when repairMesh() finds no way.
 ConvertedMesh toMesh(vtkPolyData* input);
 
-/// Gives `output` the points, triangles, Normals and SourceId of a mesh, without copying: the
-/// arrays keep the mesh alive. Points are doubles.
-void toPolyData(const MeshPtr& mesh, vtkPolyData* output);
+/// Gives `output` the points, triangles, Normals (if asked for) and SourceId of a mesh, without
+/// copying: the arrays keep the mesh alive. Points are doubles.
+void toPolyData(const MeshPtr& mesh, bool withNormals, vtkPolyData* output);
 
 ///@{
 /// `tuples` tuples of `components` values that lie at `values`, as an array that shares them and

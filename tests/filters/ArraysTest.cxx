@@ -122,6 +122,36 @@ TEST(Arrays, NormalsOfTheInputStayBehind)
   }
 }
 
+vtkDataArray* normalsOf(vtkHybridTreeAlgorithm* filter)
+{
+  filter->Update();
+  return filter->GetOutput()->GetPointData()->GetNormals();
+}
+
+// A drilled block has faces of two triangles, whose corners have one normal for three faces.
+TEST(Arrays, NormalsAreLeftOutWhereTheySmearLargeTriangles)
+{
+  vtkNew<vtkCubeSource> cube;
+  vtkNew<vtkHybridTreeBoolean> drilled;
+  drilled->SetOperation(vtkHybridTreeBoolean::DIFFERENCE);
+  drilled->SetInputConnection(0, cube->GetOutputPort());
+  const auto drill = rod();
+  drilled->SetInputConnection(1, drill->GetOutputPort());
+  EXPECT_FALSE(normalsOf(drilled));
+  const auto node = drilled->GetTree();
+  drilled->SetPointNormals(vtkHybridTreeAlgorithm::NORMALS_ALWAYS);
+  ASSERT_TRUE(normalsOf(drilled));
+  EXPECT_EQ(normalsOf(drilled)->GetNumberOfTuples(), drilled->GetOutput()->GetNumberOfPoints());
+  EXPECT_EQ(drilled->GetTree(), node);
+
+  const auto round = ball();
+  EXPECT_TRUE(normalsOf(round));
+  round->SetPointNormals(vtkHybridTreeAlgorithm::NORMALS_NEVER);
+  EXPECT_FALSE(normalsOf(round));
+  round->SetPointNormals(17);
+  EXPECT_EQ(round->GetPointNormals(), vtkHybridTreeAlgorithm::NORMALS_NEVER);
+}
+
 TEST(Arrays, SourceIdNamesLeaves)
 {
   const auto left = ball(-3.0);
