@@ -24,7 +24,7 @@ class Cleaner
 public:
   explicit Cleaner(MeshBooleanResult& result) : result_(result), mesh_(result.mesh) {}
 
-  void run()
+  void run(bool nearlyCoincide)
   {
     double largest = 0.0;
     for (const Vec3& p : mesh_.points)
@@ -32,8 +32,8 @@ public:
       largest = std::max(largest, p.cwiseAbs().maxCoeff());
     }
     tolerance_ = kTolerance * largest;
-    const std::size_t flat = this->markFlat();
-    if (flat == 0)
+    const std::size_t flat = this->markFlat(nearlyCoincide);
+    if (flat == 0 && !nearlyCoincide)
     {
       return;
     }
@@ -43,7 +43,7 @@ public:
     {
       this->dropThinComponents();
     }
-    this->removeFlat();
+    this->removeFlat(nearlyCoincide);
     this->compact();
   }
 
@@ -81,18 +81,22 @@ private:
       [&](std::int32_t point) { return std::size_t(point) >= result_.firstCut; });
   }
 
-  // Marks the points of flat triangles.
-  std::size_t markFlat()
+  // Marks the points of flat triangles, or all at the cut.
+  std::size_t markFlat(bool all)
   {
     near_.assign(mesh_.points.size(), 0);
     std::size_t found = 0;
     for (const Triangle& c : mesh_.triangles)
     {
-      if (this->isCut(c) &&
-        isFlat(mesh_.points[std::size_t(c[0])], mesh_.points[std::size_t(c[1])],
-          mesh_.points[std::size_t(c[2])], tolerance_))
+      if (!this->isCut(c))
       {
-        ++found;
+        continue;
+      }
+      const bool flat = isFlat(mesh_.points[std::size_t(c[0])], mesh_.points[std::size_t(c[1])],
+        mesh_.points[std::size_t(c[2])], tolerance_);
+      found += flat;
+      if (flat || all)
+      {
         for (const std::int32_t point : c)
         {
           near_[std::size_t(point)] = 1;
@@ -192,7 +196,7 @@ private:
     return part;
   }
 
-  void removeFlat()
+  void removeFlat(bool unfolds)
   {
     const std::vector<std::int32_t> part = this->partAround();
     std::vector<Triangle> corners;
@@ -202,7 +206,7 @@ private:
     }
     const auto rank = [&](std::int32_t point)
     { return std::size_t(point) >= result_.firstCut ? 1 : 0; };
-    FlatTriangles flat(mesh_.points, std::move(corners), rank, tolerance_);
+    FlatTriangles flat(mesh_.points, std::move(corners), rank, tolerance_, unfolds);
     flat.remove();
     this->writeBack(part, flat);
   }
@@ -333,9 +337,9 @@ private:
 
 } // namespace
 
-void cleanResult(MeshBooleanResult& result)
+void cleanResult(MeshBooleanResult& result, bool nearlyCoincide)
 {
-  Cleaner(result).run();
+  Cleaner(result).run(nearlyCoincide);
 }
 
 void makeRoomForCut(MeshBooleanResult& result, const std::vector<Vec3>& normals, double distance)

@@ -53,7 +53,8 @@ public:
       changed = false;
       for (std::size_t t = 0; t < links_.triangleCount(); ++t)
       {
-        changed = (this->isFlatNow(t) && (this->collapse(t) || this->flip(t))) || changed;
+        changed = (this->isFlatNow(t) && (this->collapse(t) || this->flip(t))) ||
+          (owner_.unfolds_ && this->unfold(t)) || changed;
       }
     }
     part_.write(links_, owner_.triangles_);
@@ -142,6 +143,62 @@ private:
     return true;
   }
 
+  Vec3 normal(Index a, Index b, Index c) const
+  {
+    return (this->at(b) - this->at(a)).cross(this->at(c) - this->at(a));
+  }
+
+  bool unfold(std::size_t t)
+  {
+    for (Index h = 3 * Index(t); h < 3 * Index(t) + 3 && !links_.isRemoved(t); ++h)
+    {
+      if (links_.twin(h) != MeshLinks::kNone && links_.canFlip(h) && this->isFolded(h))
+      {
+        links_.flip(h);
+        return true;
+      }
+    }
+    return false;
+  }
+
+  // Whether the surface turns back on itself at an edge, and a flip makes it less: what then faces as
+  // the larger triangle did is of its face.
+  bool isFolded(Index h)
+  {
+    const Index g = links_.twin(h);
+    const Index a = links_.from(h);
+    const Index b = links_.to(h);
+    const Index c = links_.opposite(h);
+    const Index d = links_.opposite(g);
+    const Vec3 here = this->normal(a, b, c);
+    const Vec3 there = this->normal(b, a, d);
+    if (!(here.dot(there) < 0.0))
+    {
+      return false;
+    }
+    const double areaHere = here.norm();
+    const double areaThere = there.norm();
+    const double height = areaHere > areaThere
+      ? std::abs(here.dot(this->at(d) - this->at(a))) / areaHere
+      : std::abs(there.dot(this->at(c) - this->at(a))) / areaThere;
+    const Vec3 first = this->normal(d, b, c);
+    const Vec3 second = this->normal(c, a, d);
+    if (!(height <= owner_.tolerance_) ||
+      !(areaHere + areaThere - first.norm() - second.norm() >
+        2.0 * owner_.tolerance_ * this->length(h)))
+    {
+      return false;
+    }
+    std::int32_t& placeHere = owner_.place_[std::size_t(h / 3)];
+    std::int32_t& placeThere = owner_.place_[std::size_t(g / 3)];
+    const std::int32_t larger = areaHere > areaThere ? placeHere : placeThere;
+    const std::int32_t smaller = areaHere > areaThere ? placeThere : placeHere;
+    const Vec3& up = areaHere > areaThere ? here : there;
+    placeHere = first.dot(up) < 0.0 ? smaller : larger;
+    placeThere = second.dot(up) < 0.0 ? smaller : larger;
+    return true;
+  }
+
   FlatTriangles& owner_;
   const LocalPart& part_;
   const std::vector<std::int32_t>& pointOf_;
@@ -149,11 +206,12 @@ private:
 };
 
 FlatTriangles::FlatTriangles(const std::vector<Vec3>& points, std::vector<Triangle> triangles,
-  std::function<int(std::int32_t)> rank, double tolerance)
+  std::function<int(std::int32_t)> rank, double tolerance, bool unfolds)
   : points_(points)
   , triangles_(std::move(triangles))
   , rank_(std::move(rank))
   , tolerance_(tolerance)
+  , unfolds_(unfolds)
   , place_(triangles_.size())
 {
   std::iota(place_.begin(), place_.end(), 0);

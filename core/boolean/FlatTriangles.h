@@ -13,7 +13,9 @@ namespace hybridtree
 bool isFlat(const Vec3& a, const Vec3& b, const Vec3& c, double tolerance);
 
 /// Rids a part of a surface of flat triangles: collapses their edges that are no longer than the
-/// tolerance, and flips the longest side of the others. Never changes the topology of the surface,
+/// tolerance, and flips the longest side of the others. So it does, where asked, to triangles that
+/// lie on each other back to back: the edge where the surface turns back is flipped, which takes
+/// the doubled part away. Never changes the topology of the surface,
 /// moves no point by more than the tolerance, leaves points on the border of the part alone.
 class FlatTriangles
 {
@@ -22,7 +24,7 @@ public:
   /// their points are either all of the part, or the point is left alone.
   /// \param rank points of a lower one are kept when two merge.
   FlatTriangles(const std::vector<Vec3>& points, std::vector<Triangle> triangles,
-    std::function<int(std::int32_t)> rank, double tolerance);
+    std::function<int(std::int32_t)> rank, double tolerance, bool unfolds);
 
   void remove();
 
@@ -40,6 +42,7 @@ private:
   std::vector<Triangle> triangles_;
   std::function<int(std::int32_t)> rank_;
   double tolerance_;
+  bool unfolds_;
   std::vector<std::int32_t> place_;
   std::vector<std::array<std::int32_t, 2>> merged_;
 };

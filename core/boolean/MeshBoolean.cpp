@@ -11,6 +11,7 @@
 #include "core/boolean/PerturbedPredicates.h"
 #include "core/boolean/TriangleCrossings.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -25,6 +26,7 @@ constexpr int kAttempts = 3;
 // of the largest coordinate, since that is what rounding does.
 constexpr double kCrossing = 0x1p-22;
 constexpr double kRounding = 0x1p-44;
+constexpr double kCoplanar = 1e-6; // sine of the angle between triangles
 
 std::array<Keep, 2> keptBy(MeshOperation operation)
 {
@@ -106,6 +108,18 @@ private:
       kRounding * largest, kCrossing * std::min(boundsA.sizes().norm(), boundsB.sizes().norm()));
   }
 
+  // Whether triangles cross that are in one plane but for rounding.
+  bool nearlyCoincide(const CutCurves& curves) const
+  {
+    return std::any_of(curves.segments.begin(), curves.segments.end(),
+      [this](const Segment& segment)
+      {
+        const Vec3 one = areaNormal(a_.mesh(), std::size_t(segment.triangle[0]));
+        const Vec3 other = areaNormal(b_.mesh(), std::size_t(segment.triangle[1]));
+        return !(one.cross(other).norm() > kCoplanar * one.norm() * other.norm());
+      });
+  }
+
   MeshBooleanResult once(std::uint64_t seed) const
   {
     const PerturbedPredicates predicates(
@@ -131,7 +145,7 @@ private:
       }
       progress_.report(0.8);
       result = assemble(operands, keep_, curves, sides, faces);
-      cleanResult(result);
+      cleanResult(result, this->nearlyCoincide(curves));
     }
     return result;
   }

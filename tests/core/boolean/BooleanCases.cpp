@@ -7,14 +7,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 
 namespace hybridtree::test
 {
 namespace
 {
-
-// Share of the area that may be folded or covered twice: what rounding does.
-constexpr double kCovered = 1e-10;
 
 TriangleMesh boxAt(double x, double y, double z, double sizeX, double sizeY, double sizeZ)
 {
@@ -169,8 +167,37 @@ BooleanResults allOperations(const TriangleMesh& a, const TriangleMesh& b)
     meshBoolean(MeshOperation::Difference, first, second) };
 }
 
-std::string faultsOf(
-  const BooleanResults& results, const TriangleMesh& a, const TriangleMesh& b, double common)
+double foldedShare(const BooleanResults& results, const TriangleMesh& a, const TriangleMesh& b)
+{
+  TriangleMesh around = b; // as a difference has it
+  for (Triangle& corner : around.triangles)
+  {
+    std::swap(corner[1], corner[2]);
+  }
+  return std::max({ foldedArea(results.unite, a, b), foldedArea(results.intersect, a, b),
+           foldedArea(results.subtract, a, around) }) /
+    (areaOf(a) + areaOf(b));
+}
+
+namespace
+{
+
+// Rounding moves all of a surface, which for thin solids is more than a share of their volumes.
+double volumeOfRounding(const TriangleMesh& a, const TriangleMesh& b)
+{
+  const Box3 bounds = a.bounds().merged(b.bounds());
+  if (bounds.isEmpty())
+  {
+    return 0.0;
+  }
+  const double largest = bounds.min().cwiseAbs().cwiseMax(bounds.max().cwiseAbs()).maxCoeff();
+  return 0x1p-48 * largest * (areaOf(a) + areaOf(b) + bounds.diagonal().squaredNorm());
+}
+
+} // namespace
+
+std::string faultsOf(const BooleanResults& results, const TriangleMesh& a, const TriangleMesh& b,
+  double common, double folded)
 {
   std::string faults;
   const auto check = [&](const MeshBooleanResult& result, const char* name)
@@ -190,38 +217,30 @@ std::string faultsOf(
   check(results.subtract, "difference");
   const double volumeA = signedVolume(a);
   const double volumeB = signedVolume(b);
-  // Rounding moves all of a surface, which for thin solids is more than a share of their volumes.
-  const double rounding = 0x1p-46 * std::max(a.bounds().sizes().norm(), b.bounds().sizes().norm());
-  const double tolerance = 1e-10 * (volumeA + volumeB) + rounding * (areaOf(a) + areaOf(b));
+  const double tolerance = 1e-10 * (volumeA + volumeB) + volumeOfRounding(a, b);
   const double both = signedVolume(results.intersect.mesh);
   const auto compare = [&](double volume, double expected, const char* name)
   {
     if (!(std::abs(volume - expected) <= tolerance))
     {
-      faults += std::string(name) + " of volume " + std::to_string(volume) + " instead of " +
-        std::to_string(expected) + "; ";
+      std::ostringstream told;
+      told.precision(17);
+      told << name << " of volume " << volume << " instead of " << expected << "; ";
+      faults += told.str();
     }
   };
   compare(both, common < 0.0 ? both : common, "intersection");
   compare(signedVolume(results.unite.mesh), volumeA + volumeB - both, "union");
   compare(signedVolume(results.subtract.mesh), volumeA - both, "difference");
   const double twice = coveredTwice(results, a, b);
-  if (twice > kCovered)
+  if (twice > folded)
   {
     faults += std::to_string(1e6 * twice) + " millionths covered twice; ";
   }
-  TriangleMesh around = b; // as a difference has it
-  for (Triangle& corner : around.triangles)
+  const double share = foldedShare(results, a, b);
+  if (share > folded)
   {
-    std::swap(corner[1], corner[2]);
-  }
-  const double folded =
-    std::max({ foldedArea(results.unite, a, b), foldedArea(results.intersect, a, b),
-      foldedArea(results.subtract, a, around) }) /
-    (areaOf(a) + areaOf(b));
-  if (folded > kCovered)
-  {
-    faults += std::to_string(1e6 * folded) + " millionths folded; ";
+    faults += std::to_string(1e6 * share) + " millionths folded; ";
   }
   return faults;
 }

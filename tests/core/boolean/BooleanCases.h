@@ -45,9 +45,16 @@ double coveredTwice(const BooleanResults& results, const TriangleMesh& a, const 
 /// folded over others. With none, what covers a face covers it as often as its border winds around.
 double foldedArea(const MeshBooleanResult& result, const TriangleMesh& a, const TriangleMesh& b);
 
+/// The most that foldedArea() finds in one of the results, as a share of the operands' area.
+double foldedShare(const BooleanResults& results, const TriangleMesh& a, const TriangleMesh& b);
+
+/// Share of the area that may be folded or covered twice: what rounding does.
+constexpr double kFolded = 1e-10;
+
 /// What is wrong with the results: not closed and manifold, volumes that do not add up, another
-/// volume than `common`, faces that are folded or covered twice. Empty if nothing is.
-std::string faultsOf(
-  const BooleanResults& results, const TriangleMesh& a, const TriangleMesh& b, double common = -1);
+/// volume than `common`, more than `folded` of the area folded or covered twice. Empty if nothing
+/// is.
+std::string faultsOf(const BooleanResults& results, const TriangleMesh& a, const TriangleMesh& b,
+  double common = -1, double folded = kFolded);
 
 } // namespace hybridtree::test

@@ -104,6 +104,27 @@ TEST(MeshBoolean, ResultsAreOperands)
   }
 }
 
+// Sheets that lie on each other but for rounding cross themselves: folded they may be, not open.
+TEST(MeshBoolean, ChainsOfResultsAndTheirOperandsStayClosed)
+{
+  Random random(27);
+  const std::vector<TriangleMesh> pool = shapes();
+  for (const NearCase& near : nearCases())
+  {
+    NearPair pair = near.make(random, pool[std::size_t(random.integer(0, int(pool.size()) - 1))],
+      pool[std::size_t(random.integer(0, int(pool.size()) - 1))]);
+    std::string name = near.name;
+    for (int cut = 0; cut < 4; ++cut)
+    {
+      const BooleanResults results = allOperations(pair.a, pair.b);
+      EXPECT_EQ(faultsOf(results, pair.a, pair.b, -1.0, 1e-2), "") << name;
+      std::string link;
+      pair = nextOfChain(random, pair, results, link);
+      name += "; " + link;
+    }
+  }
+}
+
 TEST(MeshBoolean, BoxesFlushWithEachOtherCoverNothingTwice)
 {
   for (const BooleanCase& hard : hardCases())

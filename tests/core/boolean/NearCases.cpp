@@ -153,6 +153,15 @@ NearPair verySmallOrLarge(Random& random, const TriangleMesh& first, const Trian
   return { moved(first, about(Vec3::Zero(), scale)), moved(placed, about(Vec3::Zero(), scale)) };
 }
 
+// Where rounding is up to a hundred-millionth of the solids: what it makes of them.
+NearPair farAway(Random& random, const TriangleMesh& first, const TriangleMesh& second)
+{
+  const Affine3 away = shift(tenTo(random, 2.0, 8.0) * directionOrAxis(random));
+  const TriangleMesh placed =
+    random.chance(0.3) ? slid(random, first, first).b : moved(second, randomPlacement(random, 0.8));
+  return { moved(first, away), moved(placed, away) };
+}
+
 } // namespace
 
 std::vector<NearCase> nearCases()
@@ -161,7 +170,7 @@ std::vector<NearCase> nearCases()
     { "scaled by a little", scaled }, { "slid along a face", slid },
     { "turned by a quarter", quarterTurned }, { "mirrored", mirrored },
     { "rounded to float", rounded }, { "face on face", faceOnFace }, { "vertex on", vertexOn },
-    { "very small or large", verySmallOrLarge } };
+    { "very small or large", verySmallOrLarge }, { "far away", farAway } };
 }
 
 NearPair nextOfChain(
