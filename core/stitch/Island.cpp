@@ -10,6 +10,7 @@
 #include "core/stitch/Patch.h"
 #include "core/stitch/PatchShape.h"
 #include "core/stitch/ProjectPoints.h"
+#include "core/stitch/RimNumbers.h"
 
 #include <algorithm>
 
@@ -60,8 +61,8 @@ public:
     , cells_(cells)
     , options_(options)
     , progress_(progress)
+    , rimNumbers_(cut_.rim)
   {
-    island_.rim = std::move(cut_.rim);
   }
 
   Island run(const IslandField& whole, bool faceted)
@@ -72,7 +73,7 @@ public:
     mendNormals(island_.mesh);
     this->sharpen(patch, faceted);
     onCrease_.resize(island_.mesh.points.size(), true); // those that were added
-    improveShapes(field_, island_.mesh, island_.rim.size(), onCrease_, options_.grid.cellSize,
+    improveShapes(field_, island_.mesh, cut_.rim.size(), onCrease_, options_.grid.cellSize,
       options_.unfold ? Folds::Unfold : Folds::Stay);
     this->findFaults(patch);
     if (island_.faults.empty())
@@ -87,6 +88,7 @@ public:
     {
       island_.gone.push_back(std::move(cut.gone));
     }
+    island_.rim = std::move(cut_.rim);
     return std::move(island_);
   }
 
@@ -110,7 +112,7 @@ private:
 
   void smoothNewNormals()
   {
-    const auto kept = static_cast<std::ptrdiff_t>(island_.rim.size());
+    const auto kept = static_cast<std::ptrdiff_t>(cut_.rim.size());
     std::vector<Vec3>& normals = island_.mesh.normals;
     const std::vector<Vec3> before(normals.begin(), normals.begin() + kept);
     // Turned round, the normals of creases do not mix with those of the faces beside them.
@@ -140,10 +142,14 @@ private:
     std::size_t t = 0;
     for (std::size_t p = 0; p < parts_.size(); ++p)
     {
+      std::int32_t last = -1; // pieces of one triangle follow one another
+      Vec3 normal = Vec3::Zero();
       for (const std::int32_t source : cut_.cuts[p].pieceOf)
       {
-        const Vec3 normal =
-          areaNormal(*parts_[p].mesh, static_cast<std::size_t>(source)).stableNormalized();
+        normal = source == last
+          ? normal
+          : areaNormal(*parts_[p].mesh, static_cast<std::size_t>(source)).stableNormalized();
+        last = source;
         for (const std::int32_t v : mesh.triangles[t++])
         {
           first[v] = first[v].isZero(0.0) ? normal : first[v];
@@ -194,11 +200,7 @@ private:
   /// Number of a point of a part in the rim; -1 where it is not there.
   std::int32_t rimNumber(std::size_t p, std::int32_t point) const
   {
-    const PartPoint wanted{ static_cast<std::int32_t>(p), point };
-    const auto found = std::lower_bound(island_.rim.begin(), island_.rim.end(), wanted);
-    return found != island_.rim.end() && *found == wanted
-      ? static_cast<std::int32_t>(found - island_.rim.begin())
-      : -1;
+    return rimNumbers_.find({ static_cast<std::int32_t>(p), point });
   }
 
   /// One mesh of the rim, the cut vertices and the patch.
@@ -210,7 +212,7 @@ private:
       hasSourceTriangles_ = hasSourceTriangles_ || !part.mesh->sourceTriangle.empty();
       hasOrigins_ = hasOrigins_ || !part.mesh->vertexOrigin.empty();
     }
-    for (const PartPoint& at : island_.rim)
+    for (const PartPoint& at : cut_.rim)
     {
       const TriangleMesh& from = *parts_[at.part].mesh;
       mesh.points.push_back(from.points[at.point]);
@@ -228,7 +230,7 @@ private:
     }
     mesh.points.insert(mesh.points.end(), patch.points.begin(), patch.points.end());
     mesh.normals.insert(mesh.normals.end(), patch.normals.begin(), patch.normals.end());
-    const auto shift = static_cast<std::int32_t>(island_.rim.size());
+    const auto shift = static_cast<std::int32_t>(cut_.rim.size());
     for (const Triangle& c : patch.triangles)
     {
       this->addTriangle({ c[0] + shift, c[1] + shift, c[2] + shift }, -1, -1);
@@ -339,7 +341,7 @@ private:
     }
     for (const std::int32_t v : patch.unsettled)
     {
-      points.push_back(island_.rim.size() + static_cast<std::size_t>(v));
+      points.push_back(cut_.rim.size() + static_cast<std::size_t>(v));
     }
     return points;
   }
@@ -367,7 +369,7 @@ private:
   {
     const PointTriangles& triangles = KeptMesh::of(parts_[p].mesh)->pointTriangles();
     std::vector<std::int32_t> near;
-    for (const PartPoint& at : island_.rim)
+    for (const PartPoint& at : cut_.rim)
     {
       if (at.part == static_cast<std::int32_t>(p))
       {
@@ -415,6 +417,7 @@ private:
   const CellSet& cells_;
   const StitchOptions& options_;
   const Progress& progress_;
+  const RimNumbers rimNumbers_;
   bool hasSourceTriangles_ = false;
   bool hasOrigins_ = false;
   std::vector<std::int32_t> firstCut_; ///< per part: its first cut vertex in the island
