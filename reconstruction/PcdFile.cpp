@@ -98,6 +98,29 @@ void readViewpoint(const std::vector<std::string>& line, PcdCloud& cloud)
   }
 }
 
+void readType(PcdField& field, const std::string& word)
+{
+  if (word != "F" && word != "I" && word != "U")
+  {
+    fail("the header's TYPE has \"" + word.substr(0, 40) + "\"; it must be F, I or U.");
+  }
+  field.type = word[0];
+}
+
+Kind kindOf(const std::string& word)
+{
+  if (word == "ascii")
+  {
+    return Kind::Ascii;
+  }
+  if (word != "binary" && word != "binary_compressed")
+  {
+    fail("the header's DATA is \"" + word.substr(0, 40) +
+      "\"; it must be ascii, binary or binary_compressed.");
+  }
+  return word == "binary" ? Kind::Binary : Kind::Compressed;
+}
+
 void readLine(const std::vector<std::string>& line, Header& header, std::uint64_t& points)
 {
   PcdCloud& cloud = header.cloud;
@@ -110,15 +133,7 @@ void readLine(const std::vector<std::string>& line, Header& header, std::uint64_
   }
   else if (key == "TYPE")
   {
-    setFields(cloud.fields, line,
-      [](PcdField& field, const std::string& word)
-      {
-        if (word != "F" && word != "I" && word != "U")
-        {
-          fail("the header's TYPE has \"" + word.substr(0, 40) + "\"; it must be F, I or U.");
-        }
-        field.type = word[0];
-      });
+    setFields(cloud.fields, line, readType);
   }
   else if (key == "SIZE")
   {
@@ -149,15 +164,7 @@ void readLine(const std::vector<std::string>& line, Header& header, std::uint64_
   }
   else if (key == "DATA")
   {
-    const std::string& word = single(line);
-    header.kind = word == "ascii" ? Kind::Ascii
-      : word == "binary"          ? Kind::Binary
-                                  : Kind::Compressed;
-    if (header.kind == Kind::Compressed && word != "binary_compressed")
-    {
-      fail("the header's DATA is \"" + word.substr(0, 40) +
-        "\"; it must be ascii, binary or binary_compressed.");
-    }
+    header.kind = kindOf(single(line));
   }
   else if (key != "VERSION")
   {

@@ -93,6 +93,7 @@ private:
   }
   void setSide(std::int32_t cell, bool inside);
   void await(std::int32_t vertex);
+  std::vector<std::int32_t> component(std::int32_t seed, std::vector<std::uint8_t>& seen) const;
   void removeCrumbsAndVoids();
 
   const Tetrahedralization& tetrahedra_;
@@ -391,10 +392,37 @@ void SolidRepair::fillStar(std::int32_t vertex, const std::vector<Clump>&)
   }
 }
 
+// The cells of one side that hang together with the seed, which are seen then.
+std::vector<std::int32_t> SolidRepair::component(
+  std::int32_t seed, std::vector<std::uint8_t>& seen) const
+{
+  constexpr std::size_t kAhead = 16;
+  const bool side = inside_[seed] != 0;
+  std::vector<std::int32_t> cells{ seed };
+  seen[seed] = 1;
+  for (std::size_t k = 0; k < cells.size(); ++k)
+  {
+    if (k % kBreath == 0)
+    {
+      progress_.check();
+    }
+    tetrahedra_.prefetch(cells[std::min(k + kAhead, cells.size() - 1)]);
+    for (int facet = 0; facet < 4; ++facet)
+    {
+      const std::int32_t beyond = tetrahedra_.neighbor(cells[k], facet);
+      if (!seen[beyond] && (inside_[beyond] != 0) == side)
+      {
+        seen[beyond] = 1;
+        cells.push_back(beyond);
+      }
+    }
+  }
+  return cells;
+}
+
 void SolidRepair::removeCrumbsAndVoids()
 {
   constexpr std::size_t kCrumb = 100;
-  constexpr std::size_t kAhead = 16;
   std::vector<std::uint8_t> seen(inside_.size(), 0);
   std::vector<std::vector<std::int32_t>> solids;
   std::vector<std::vector<std::int32_t>> voids;
@@ -407,25 +435,7 @@ void SolidRepair::removeCrumbsAndVoids()
     // Infinite cells come first, so the first outer component is the true outside.
     const bool side = inside_[seed] != 0;
     const bool isVoid = !side && tetrahedra_.finite(seed);
-    std::vector<std::int32_t> cells{ seed };
-    seen[seed] = 1;
-    for (std::size_t k = 0; k < cells.size(); ++k)
-    {
-      if (k % kBreath == 0)
-      {
-        progress_.check();
-      }
-      tetrahedra_.prefetch(cells[std::min(k + kAhead, cells.size() - 1)]);
-      for (int facet = 0; facet < 4; ++facet)
-      {
-        const std::int32_t beyond = tetrahedra_.neighbor(cells[k], facet);
-        if (!seen[beyond] && (inside_[beyond] != 0) == side)
-        {
-          seen[beyond] = 1;
-          cells.push_back(beyond);
-        }
-      }
-    }
+    std::vector<std::int32_t> cells = this->component(seed, seen);
     if (isVoid)
     {
       voids.push_back(std::move(cells));

@@ -171,6 +171,38 @@ hybridtree::WorkEstimate estimateOf(
     : hybridtree::estimateWork(count, bounds, detailOf(filter, count, bounds));
 }
 
+/// Numbers of the points that the surface is made of. Smoothing moves them in `all`.
+std::vector<std::int32_t> choosePoints(vtkHybridTreeReconstruction& filter,
+  std::vector<hybridtree::Vec3>& all, const hybridtree::Progress& progress)
+{
+  using namespace hybridtree;
+  std::vector<std::int32_t> chosen = withoutDuplicates(all, allPoints(all), progress);
+  if (filter.GetRemoveOutliers())
+  {
+    chosen = withoutOutliers(all, chosen, filter.GetOutlierNeighbors(),
+      filter.GetOutlierDeviation(), ProgressPart(progress, 0.0, 0.5));
+  }
+  const double radius = filter.GetSmoothingRadius();
+  if (radius != 0.0)
+  {
+    chosen = smooth(all, chosen, radius, ProgressPart(progress, 0.5, 0.75));
+  }
+  // Points of several layers have come to lie side by side: closer ones would only make slivers.
+  const double spacing = filter.GetSpacing();
+  const double least = spacing >= 0.0 ? 0.25 * radius : spacing;
+  return thinned(all, chosen, std::max(spacing, least), ProgressPart(progress, 0.75, 1.0));
+}
+
+hybridtree::ConvectionOptions optionsOf(vtkHybridTreeReconstruction& filter)
+{
+  hybridtree::ConvectionOptions options;
+  options.openPockets = filter.GetOpenPockets();
+  options.pocketFactor = filter.GetPocketFactor();
+  options.closeHoles = filter.GetCloseHoles();
+  options.holeFactor = filter.GetHoleFactor();
+  return options;
+}
+
 hybridtree::Box3 boundsOf(vtkDataObject* data)
 {
   double ends[6];
@@ -350,30 +382,14 @@ void vtkHybridTreeReconstruction::Reconstruct(vtkDataSet* input, vtkPolyData* ou
   checkParameters(*this);
   const FilterProgress progress(this);
   std::vector<Vec3> all = readPoints(input);
-  std::vector<std::int32_t> chosen = withoutDuplicates(all, allPoints(all), progress);
-  if (this->RemoveOutliers)
-  {
-    chosen = withoutOutliers(all, chosen, this->OutlierNeighbors, this->OutlierDeviation,
-      ProgressPart(progress, 0.0, 0.1));
-  }
-  if (this->SmoothingRadius != 0.0)
-  {
-    chosen = smooth(all, chosen, this->SmoothingRadius, ProgressPart(progress, 0.1, 0.15));
-  }
-  // Points of several layers have come to lie side by side: closer ones would only make slivers.
-  const double least = this->Spacing >= 0.0 ? 0.25 * this->SmoothingRadius : this->Spacing;
-  chosen = thinned(all, chosen, std::max(this->Spacing, least), ProgressPart(progress, 0.15, 0.2));
-
+  const std::vector<std::int32_t> chosen =
+    choosePoints(*this, all, ProgressPart(progress, 0.0, 0.2));
   std::vector<Vec3> points(chosen.size());
   for (std::size_t k = 0; k < chosen.size(); ++k)
   {
     points[k] = all[chosen[k]];
   }
-  ConvectionOptions options;
-  options.openPockets = this->OpenPockets;
-  options.pocketFactor = this->PocketFactor;
-  options.closeHoles = this->CloseHoles;
-  options.holeFactor = this->HoleFactor;
+  ConvectionOptions options = optionsOf(*this);
   if (this->UseNormals)
   {
     options.normals = readNormals(input, chosen);
