@@ -304,6 +304,7 @@ Ratios ratiosToBest(const Shape& shape, BlendMethod best, int rounds, std::uint6
 struct Tally
 {
   std::vector<double> automatic, itself, whereGlobal, whereLocal;
+  std::vector<double> globalIsFaster; ///< lost to global, then
   int slowerWay = 0;
   int unclear = 0;
 
@@ -326,6 +327,7 @@ struct Tally
     Tally::print("automatic / faster way", automatic);
     Tally::print("  where it is global", whereGlobal);
     Tally::print("  where it is local", whereLocal);
+    Tally::print("  where global is the faster way", globalIsFaster);
     Tally::print("faster way / the same once more", itself);
     std::printf(
       "the slower way was taken %d times; %d were too close to 1.1 to tell\n", slowerWay, unclear);
@@ -365,6 +367,10 @@ bool compareOnPairs(const std::string& file, int count, int rounds, const std::s
     tally.automatic.push_back(ratios.automatic);
     tally.itself.push_back(ratios.itself);
     (isGlobal ? tally.whereGlobal : tally.whereLocal).push_back(ratios.automatic);
+    if (globalIsFaster)
+    {
+      tally.globalIsFaster.push_back(ratios.automatic);
+    }
     tally.slowerWay += isGlobal != globalIsFaster ? 1 : 0;
     tally.unclear += ratios.isClear ? 0 : 1;
     csv << shape.ratio() << ',' << turns.medianOf(0) << ',' << turns.medianOf(1) << ','

@@ -10,24 +10,32 @@ namespace hybridtree
 
 /// What the ways to mesh a blend cost, by counting what they do: to choose the cheapest. Costs are
 /// microseconds of one processor; only their ratios matter. The counts are those of the case; what
-/// one of each costs was fitted to pairs of balls and to blends on a scan.
+/// one of each costs was fitted to pairs of balls and to blends on meshes.
 class BlendCost
 {
 public:
-  /// \param faceted some field is that of a mesh, which takes much longer to ask.
-  explicit BlendCost(bool faceted);
+  /// What one value of the field costs.
+  struct Sample
+  {
+    double onSurface; ///< on average
+    double inCell;    ///< where terms meet
+  };
 
-  /// Of the whole lattice. \param squares area of the surface in squared cells.
-  double global(double squares) const;
+  explicit BlendCost(const Sample& sample) : sample_(sample) {}
 
-  /// Of a patch over marked cells, and the copy of what is kept.
-  double local(const CellSet& cells, double squares) const;
+  /// Whether a patch over marked cells, and the copy of what is kept, cost less than the whole
+  /// lattice. \param kept, givenUp area of the surface in squared cells, of parts that keep their
+  /// meshes and of others.
+  bool isLocalCheaper(const CellSet& cells, double kept, double givenUp) const;
 
-  /// More marked cells than this, and local is hardly ever cheaper: no need to find them all.
-  std::size_t mostCells(double squares) const;
+  /// With more marked cells than this it hardly ever is: no need to find them all.
+  std::size_t mostCells(double kept, double givenUp) const;
 
 private:
-  double perSample_;
+  double global(double squares) const;
+  double local(double cells, double border, double kept) const;
+
+  Sample sample_;
 };
 
 } // namespace hybridtree

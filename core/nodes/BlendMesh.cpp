@@ -4,6 +4,7 @@
 #include "core/base/Dependency.h"
 #include "core/geometry/BoxUnion.h"
 #include "core/nodes/BlendCost.h"
+#include "core/nodes/BlendEstimate.h"
 #include "core/nodes/BlendSource.h"
 #include "core/nodes/LatticeMesh.h"
 #include "core/nodes/TriangleSources.h"
@@ -88,23 +89,6 @@ double squaresOf(const std::vector<KeptPart>& kept, double cellSize)
   for (const KeptPart& part : kept)
   {
     area += KeptMesh::of(part.mesh)->area();
-  }
-  return area / (cellSize * cellSize);
-}
-
-/// The same by the sides of boxes, before there are meshes. A ball has half of that.
-double squaresOf(const std::vector<MarkTerm>& terms, double cellSize)
-{
-  constexpr double kShareOfBox = 0.55;
-  double area = 0.0;
-  for (const MarkTerm& term : terms)
-  {
-    const Box3 box = term.kept ? term.node->surfaceBounds() : Box3();
-    if (!box.isEmpty())
-    {
-      const Vec3 side = box.sizes();
-      area += 2.0 * kShareOfBox * (side.x() * side.y() + side.y() * side.z() + side.z() * side.x());
-    }
   }
   return area / (cellSize * cellSize);
 }
@@ -355,9 +339,9 @@ std::vector<MarkTerm> termsOf(const std::vector<BlendPart>& parts, double thresh
   std::vector<MarkTerm> terms;
   for (std::size_t k = 0; k < parts.size(); ++k)
   {
-    const bool kept =
-      !parts[k].node->isNegative() && parts[k].count == 1 && ratioOf(k, boxes) <= threshold;
-    terms.push_back({ parts[k].node, kept, static_cast<double>(parts[k].count) });
+    const double ratio = ratioOf(k, boxes);
+    const bool kept = !parts[k].node->isNegative() && parts[k].count == 1 && ratio <= threshold;
+    terms.push_back({ parts[k].node, kept, static_cast<double>(parts[k].count), ratio });
   }
   return terms;
 }
@@ -395,7 +379,7 @@ TriangleMesh meshByParts(const Node& blend, const std::vector<BlendPart>& parts,
 {
   report.method = options.method;
   const bool choose = options.method == BlendMethod::Automatic;
-  const BlendCost cost(blend.isFaceted());
+  const BlendCost cost(choose ? sampleCost(terms, edgeLength) : BlendCost::Sample{ 0.0, 0.0 });
   const MemoryBudget budget{ kMaxBytes, edgeLength };
   const CellGrid grid = gridOf(blend, edgeLength);
   const auto mark = [&](std::size_t mostCells)
@@ -403,15 +387,29 @@ TriangleMesh meshByParts(const Node& blend, const std::vector<BlendPart>& parts,
     return markedCells(
       terms, interaction, grid, budget, mostCells, ProgressPart(progress, 0.3, 0.4));
   };
+  const double givenUp = choose ? squaresGivenUp(terms, grid.cellSize) : 0.0;
+  const auto isSurelyGlobal = [&](double squares)
+  {
+    return seemFarMoreMarked(terms, interaction, grid, budget, cost.mostCells(squares, givenUp),
+      ProgressPart(progress, 0.3, 0.3));
+  };
   const auto markIfCheaper = [&](double squares)
   {
-    std::optional<CellSet> cells = mark(cost.mostCells(squares));
-    return cells && cost.local(*cells, squares) <= cost.global(squares) ? cells : std::nullopt;
+    std::optional<CellSet> cells;
+    if (!isSurelyGlobal(squares))
+    {
+      cells = mark(cost.mostCells(squares, givenUp));
+    }
+    return cells && cost.isLocalCheaper(*cells, squares, givenUp) ? cells : std::nullopt;
   };
   std::optional<CellSet> cells;
   // Skeletons are sampled whole in no time: there the choice comes before anything is meshed.
   const bool chooseFirst = choose && !blend.isFaceted();
-  if (chooseFirst && !(cells = markIfCheaper(squaresOf(terms, edgeLength))))
+  if (chooseFirst && !isSurelyGlobal(squaresByBoxes(terms, edgeLength)))
+  {
+    cells = markIfCheaper(squaresByPoints(terms, edgeLength));
+  }
+  if (chooseFirst && !cells)
   {
     return wholeLattice(blend, grid, report, progress);
   }

@@ -16,12 +16,13 @@ struct UnitKey
   CellGrid grid;
   Index3 low{};
   int interaction = 0;
+  std::int64_t share = 1; ///< one in so many blocks is looked at
   std::vector<Dependency> terms;
 
   bool operator==(const UnitKey& other) const
   {
     return grid == other.grid && low == other.low && interaction == other.interaction &&
-      terms == other.terms;
+      share == other.share && terms == other.terms;
   }
 
   bool isExpired() const { return anyExpired(terms); }

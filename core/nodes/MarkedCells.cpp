@@ -2,13 +2,13 @@
 #include "core/nodes/MarkedCells.h"
 
 #include "core/base/Parallel.h"
+#include "core/nodes/MarkBlock.h"
 #include "core/nodes/MarkMemory.h"
 
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace hybridtree
@@ -20,15 +20,16 @@ constexpr double kBytesPerBrick = 20000.0;
 
 // Cells along the side of what is marked, and remembered, as one.
 constexpr std::int64_t kUnit = 4 * kBrickSide;
-constexpr std::size_t kLevels = 5; // of halving it down to cells
-static_assert(kUnit >> kLevels == 1, "a unit is halved down to cells");
+static_assert(kUnit >> MarkSearch::kLevels == 1, "a unit is halved down to cells");
 
-// Where the search may end early, one in eight blocks of this many cells is looked at first: the
-// count is the more certain the larger, and where it tells that there are far too many, not even
-// as many as allowed are looked for.
+// Where the search may end early, some blocks of this many cells are looked at first, one in eight
+// or less: the count is the more certain the more cells are counted, and where so many are that
+// there are too many in all, not even as many as allowed are looked for.
 constexpr std::int64_t kSampledBlock = 4;
-constexpr std::size_t kSampledShare = 8;
-constexpr std::size_t kFarTooMany = 2;
+constexpr std::int64_t kLargestShare = 8; // one in so many
+constexpr std::int64_t kLeastShare = 512;
+constexpr double kTellingCells = 200.0;
+constexpr double kFarTooMany = 1.2; // times as many
 
 // A surface is looked for down to blocks of this many cells, and a bit beyond: meshes are off the
 // surfaces they stand for.
@@ -37,32 +38,6 @@ constexpr double kSurfaceMargin = 0.5; // cells
 
 // How far off T the field must be to tell that no surface is there.
 constexpr double kRangeSlack = 1e-9;
-
-/// A term that may reach a block.
-struct Reach
-{
-  int term = 0;
-  bool certain = false;                ///< not 0 anywhere in the block
-  const FieldSource* source = nullptr; ///< valid in the block
-};
-
-struct Block
-{
-  Index3 low{};
-  std::int64_t side = 1;
-  std::vector<Reach> reach;
-};
-
-/// What the search in one unit goes on with, so that nothing is allocated for a block.
-struct Search
-{
-  std::vector<FieldSourcePtr> sources; ///< that blocks refer to
-  std::array<Block, kLevels> blocks;   ///< the one at hand on each level below the unit
-  std::vector<int> possible;           ///< terms that may not be 0
-  std::vector<int> certain;
-  std::vector<Interval> ranges;
-  CellSet cells; ///< the marks
-};
 
 class Marker
 {
@@ -80,15 +55,7 @@ public:
 
   std::optional<CellSet> run()
   {
-    Block root = this->rootBlock();
-    if (root.side > 0)
-    {
-      this->collectUnits(std::move(root));
-    }
-    if (this->seemFarTooMany())
-    {
-      return std::nullopt;
-    }
+    this->findUnits();
     std::vector<std::shared_ptr<const UnitMarks>> marks(units_.size());
     this->forEachUnit([&](std::size_t k) { marks[k] = this->marksOf(std::move(units_[k])); });
     if (this->areTooMany())
@@ -107,12 +74,36 @@ public:
     return cells;
   }
 
+  /// That it ends as soon as what was found suffices does not change the answer.
+  bool seemFarTooMany()
+  {
+    const double farTooMany = kFarTooMany * static_cast<double>(mostCells_);
+    share_ = kLargestShare;
+    while (share_ < kLeastShare && farTooMany > 2.0 * kTellingCells * static_cast<double>(share_))
+    {
+      share_ *= 2;
+    }
+    mostCells_ = static_cast<std::size_t>(farTooMany / static_cast<double>(share_));
+    this->findUnits();
+    this->forEachUnit([&](std::size_t k) { this->sample(std::move(units_[k])); });
+    return this->areTooMany();
+  }
+
 private:
+  void findUnits()
+  {
+    MarkBlock root = this->rootBlock();
+    if (root.side > 0)
+    {
+      this->collectUnits(std::move(root));
+    }
+  }
+
   /// Blocks are at multiples of their side: a unit is the same wherever the terms begin and end.
-  Block rootBlock() const
+  MarkBlock rootBlock() const
   {
     Box3 bounds;
-    Block root;
+    MarkBlock root;
     root.side = 0;
     for (std::size_t k = 0; k < terms_.size(); ++k)
     {
@@ -150,12 +141,12 @@ private:
   }
 
   /// By influence boxes alone.
-  void collectUnits(Block block)
+  void collectUnits(MarkBlock block)
   {
     const Box3 box = this->boxOf(block, kSurfaceMargin);
     std::vector<int> present;
-    std::vector<Reach> left;
-    for (const Reach& reach : block.reach)
+    std::vector<MarkReach> left;
+    for (const MarkReach& reach : block.reach)
     {
       if (box.intersects(terms_[reach.term].node->influenceBounds()))
       {
@@ -177,7 +168,7 @@ private:
     progress_.check();
     for (int n = 0; n < 8; ++n)
     {
-      Block child;
+      MarkBlock child;
       Marker::setChild(block, n, child);
       this->collectUnits(std::move(child));
     }
@@ -197,25 +188,7 @@ private:
       });
   }
 
-  /// By some of the blocks. That it ends as soon as these suffice does not change the answer.
-  bool seemFarTooMany()
-  {
-    if (mostCells_ > std::numeric_limits<std::size_t>::max() / kFarTooMany)
-    {
-      return false;
-    }
-    const std::size_t mostCells =
-      std::exchange(mostCells_, kFarTooMany * mostCells_ / kSampledShare);
-    sampling_ = true;
-    this->forEachUnit([&](std::size_t k) { this->sample(units_[k]); });
-    sampling_ = false;
-    const bool tooMany = this->areTooMany();
-    mostCells_ = mostCells;
-    count_ = 0;
-    return tooMany;
-  }
-
-  void sample(Block unit)
+  void sample(MarkBlock unit)
   {
     if (this->areTooMany())
     {
@@ -227,7 +200,7 @@ private:
       count_ += *known;
       return;
     }
-    Search search;
+    MarkSearch search;
     this->markUnit(unit, search);
     if (!this->areTooMany())
     {
@@ -236,11 +209,13 @@ private:
     }
   }
 
-  /// Evenly over planes, too.
-  static bool isSampled(const Block& block)
+  /// Evenly over planes, too: the blocks of a share are a lattice with all sides alike.
+  bool isSampled(const MarkBlock& block) const
   {
-    const std::int64_t place = block.low[0] + 3 * block.low[1] + 5 * block.low[2];
-    return place / kSampledBlock % std::int64_t(kSampledShare) == 0;
+    const std::int64_t second = 1 + 2 * (share_ * 39 / 200);
+    const std::int64_t third = 1 + 2 * (share_ * 8 / 25);
+    const std::int64_t place = block.low[0] + second * block.low[1] + third * block.low[2];
+    return place / kSampledBlock % share_ == 0;
   }
 
   void checkBudget(std::size_t bricks) const
@@ -249,10 +224,10 @@ private:
     budget_.check(count * kBytesPerBrick, count * kBrickPoints);
   }
 
-  UnitKey keyOf(const Block& unit) const
+  UnitKey keyOf(const MarkBlock& unit) const
   {
-    UnitKey key{ grid_, unit.low, interaction_.kind(), {} };
-    for (const Reach& reach : unit.reach)
+    UnitKey key{ grid_, unit.low, interaction_.kind(), share_, {} };
+    for (const MarkReach& reach : unit.reach)
     {
       const MarkTerm& term = terms_[reach.term];
       key.terms.emplace_back(term.node->shared_from_this(), term.weight, term.kept ? 1 : 0);
@@ -260,13 +235,13 @@ private:
     return key;
   }
 
-  std::shared_ptr<const UnitMarks> marksOf(Block unit)
+  std::shared_ptr<const UnitMarks> marksOf(MarkBlock unit)
   {
     const UnitKey key = this->keyOf(unit);
     std::shared_ptr<const UnitMarks> marks = unitMarks().find(key);
     if (!marks)
     {
-      Search search;
+      MarkSearch search;
       this->markUnit(unit, search);
       if (this->areTooMany())
       {
@@ -288,7 +263,7 @@ private:
     return marks;
   }
 
-  Box3 boxOf(const Block& block, double margin) const
+  Box3 boxOf(const MarkBlock& block, double margin) const
   {
     return grid_.boxOf(block.low, static_cast<double>(block.side), margin);
   }
@@ -302,7 +277,7 @@ private:
 
   /// Asks the terms anew for a block, and drops those that do not reach it. Those that do are
   /// narrowed to large blocks.
-  Answer look(Block& block, Search& search) const
+  Answer look(MarkBlock& block, MarkSearch& search) const
   {
     const Box3 box = this->boxOf(block, kSurfaceMargin);
     search.possible.clear();
@@ -313,7 +288,7 @@ private:
     bool dropped = false;
     for (std::size_t k = 0; k < block.reach.size(); ++k)
     {
-      Reach reach = block.reach[k];
+      MarkReach reach = block.reach[k];
       const MarkTerm& term = terms_[reach.term];
       if (dropped && term.node->isFaceted() && !this->mayMark(search.possible, block, k))
       {
@@ -353,7 +328,7 @@ private:
   }
 
   /// \return whether the term is there at all.
-  static bool narrow(Reach& reach, const Box3& box, Search& search)
+  static bool narrow(MarkReach& reach, const Box3& box, MarkSearch& search)
   {
     FieldSourcePtr source = reach.source->restrictedTo(box);
     reach.source = source.get();
@@ -362,10 +337,10 @@ private:
   }
 
   /// Whether a cell is marked, as far as the ranges of the terms tell. A surface is near.
-  bool marksCell(const Block& cell, Search& search) const
+  bool marksCell(const MarkBlock& cell, MarkSearch& search) const
   {
     search.possible.clear();
-    for (const Reach& reach : cell.reach)
+    for (const MarkReach& reach : cell.reach)
     {
       if (reach.certain)
       {
@@ -376,7 +351,7 @@ private:
     bool marks = interaction_.marks(terms_, search.possible);
     for (std::size_t k = 0; k < cell.reach.size() && !marks; ++k)
     {
-      const Reach& reach = cell.reach[k];
+      const MarkReach& reach = cell.reach[k];
       if (!reach.certain && this->mayBeThere(reach, box))
       {
         search.possible.push_back(reach.term);
@@ -386,14 +361,14 @@ private:
     return marks;
   }
 
-  static bool mayBeThere(const Reach& reach, const Box3& box)
+  static bool mayBeThere(const MarkReach& reach, const Box3& box)
   {
     const Interval range = reach.source->range(box);
     return range.min != 0.0 || range.max != 0.0;
   }
 
   /// With all terms from number `next` on.
-  bool mayMark(std::vector<int> present, const Block& block, std::size_t next) const
+  bool mayMark(std::vector<int> present, const MarkBlock& block, std::size_t next) const
   {
     for (std::size_t k = next; k < block.reach.size(); ++k)
     {
@@ -407,7 +382,7 @@ private:
     return range.min <= kThreshold + kRangeSlack && range.max >= kThreshold - kRangeSlack;
   }
 
-  static void setChild(const Block& block, int n, Block& child)
+  static void setChild(const MarkBlock& block, int n, MarkBlock& child)
   {
     child.side = block.side / 2;
     child.low = block.low;
@@ -421,22 +396,22 @@ private:
   bool areTooMany() const { return count_ > mostCells_; }
 
   /// Those that are quick to ask first.
-  void markUnit(Block& unit, Search& search)
+  void markUnit(MarkBlock& unit, MarkSearch& search)
   {
-    for (Reach& reach : unit.reach)
+    for (MarkReach& reach : unit.reach)
     {
       reach.source = terms_[reach.term].node;
     }
     std::stable_partition(unit.reach.begin(), unit.reach.end(),
-      [&](const Reach& reach) { return !terms_[reach.term].node->isFaceted(); });
+      [&](const MarkReach& reach) { return !terms_[reach.term].node->isFaceted(); });
     this->markBlock(unit, search, 0);
   }
 
   /// \param level of its children.
-  void markBlock(Block& block, Search& search, std::size_t level)
+  void markBlock(MarkBlock& block, MarkSearch& search, std::size_t level)
   {
     if (this->areTooMany() ||
-      (sampling_ && block.side == kSampledBlock && !Marker::isSampled(block)))
+      (share_ > 1 && block.side == kSampledBlock && !this->isSampled(block)))
     {
       return;
     }
@@ -459,7 +434,7 @@ private:
       count_ += static_cast<std::size_t>(block.side * block.side * block.side);
       return;
     }
-    Block& child = search.blocks[level];
+    MarkBlock& child = search.blocks[level];
     for (int n = 0; n < 8; ++n)
     {
       Marker::setChild(block, n, child);
@@ -472,9 +447,9 @@ private:
   const CellGrid grid_;
   const MemoryBudget& budget_;
   std::size_t mostCells_;
-  bool sampling_ = false;
+  std::int64_t share_ = 1; ///< of the blocks, one in so many is looked at
   const Progress& progress_;
-  std::vector<Block> units_;
+  std::vector<MarkBlock> units_;
   std::atomic<std::size_t> count_{ 0 }; ///< of cells
   std::atomic<std::size_t> bricks_{ 0 };
 };
@@ -486,6 +461,12 @@ std::optional<CellSet> markedCells(const std::vector<MarkTerm>& terms,
   std::size_t mostCells, const Progress& progress)
 {
   return Marker(terms, interaction, grid, budget, mostCells, progress).run();
+}
+
+bool seemFarMoreMarked(const std::vector<MarkTerm>& terms, const Interaction& interaction,
+  const CellGrid& grid, const MemoryBudget& budget, std::size_t mostCells, const Progress& progress)
+{
+  return Marker(terms, interaction, grid, budget, mostCells, progress).seemFarTooMany();
 }
 
 void forgetMarks()
