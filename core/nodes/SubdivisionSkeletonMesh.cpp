@@ -79,10 +79,11 @@ private:
     std::size_t order;
 
     double leastDistance(const Vec3& p) const { return ((p - center).norm() - size) / radius; }
-    bool mayBeWithin(double distance, const Vec3& p) const
+    /// \param squared way from the center to a point.
+    bool mayBeWithin(double distance, double squared) const
     {
       const double most = size + (distance + kRounding) * radius;
-      return (p - center).squaredNorm() <= most * most;
+      return squared <= most * most;
     }
   };
 
@@ -169,13 +170,13 @@ private:
                         : this->distanceToTriangle(p, leaf_.refined().triangles[of.element]);
   }
 
-  /// A candidate and how near it may be to a point.
+  /// A candidate and the squared way from its center to a point.
   struct Near
   {
-    double bound;
+    double squared;
     const Candidate* candidate;
 
-    bool operator<(const Near& other) const { return bound < other.bound; }
+    bool operator<(const Near& other) const { return squared < other.squared; }
   };
 
   /// The best so far of a point.
@@ -192,9 +193,10 @@ private:
     near.clear();
     for (const Candidate& of : candidates)
     {
-      if (of.mayBeWithin(least, p))
+      const double squared = (p - of.center).squaredNorm();
+      if (of.mayBeWithin(least, squared))
       {
-        near.push_back({ of.leastDistance(p), &of });
+        near.push_back({ squared, &of });
       }
     }
     const Candidate* const first = std::min_element(near.begin(), near.end())->candidate;
@@ -214,7 +216,8 @@ private:
   {
     for (const Near& of : near)
     {
-      if ((of.candidate->piece == piece) != isOfIt || of.bound > best.distance)
+      if ((of.candidate->piece == piece) != isOfIt ||
+        !of.candidate->mayBeWithin(best.distance, of.squared))
       {
         continue;
       }
