@@ -153,8 +153,10 @@ public:
     works_.clear();
     for (CellSet& island : islandsOf(cells))
     {
-      works_.push_back(this->prepare(std::move(island)));
+      works_.emplace_back();
+      works_.back().cells = std::move(island);
     }
+    this->forEachWork([this](Work& work) { work = this->prepare(std::move(work.cells)); });
     this->forEachWork([this](Work& work) { this->recall(work); });
     do
     {
