@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <string>
 
@@ -205,7 +206,8 @@ void Refiner::addMiddles(const std::vector<std::int32_t>& edges)
       (!isOnSurface(of) || mesh_.normals[of.a].dot(mesh_.normals[of.b]) < kOpposite);
     const double reach = cuts ? 0.0 : kReach * lengths_[edges[k]];
     const double start = steepness > 0.0 ? (value[k] - kThreshold) / steepness : 0.0;
-    axes.push_back({ middles[k].at, outward, start, -reach, reach, 0.5 * reach, of.element });
+    axes.push_back({ middles[k].at, outward, start, -reach, reach, 0.5 * reach, of.element,
+      steepness > 0.0 ? value[k] : std::numeric_limits<double>::quiet_NaN(), -steepness });
   }
   const std::vector<double> found = slideAxes(field_, axes, &gradient);
   for (std::size_t k = 0; k < edges.size(); ++k)

@@ -30,19 +30,52 @@ struct Batch
   }
 };
 
+/// The field and its slope at a place on an axis.
+struct Place
+{
+  double t = 0.0;
+  double value = kUnknown;
+  double slope = 0.0;
+};
+
 struct Search
 {
   double t;
   double inner = kUnknown;
   double outer = kUnknown;
+  Place before; ///< the one asked last
 };
+
+/// Where t, as the cubic in f through two places, has f = T: of an error in the product of the
+/// squares of both, where Newton's has that of one. Newton's, where these differ much.
+double rootFrom(const Place& before, const Place& here)
+{
+  constexpr double kAgree = 0.5; // of Newton's step
+  if (!(here.slope < 0.0))
+  {
+    return kUnknown;
+  }
+  const double newton = here.t - (here.value - kThreshold) / here.slope;
+  const double across = here.value - before.value;
+  if (!(before.slope < 0.0) || std::isnan(across) || across == 0.0)
+  {
+    return newton;
+  }
+  const double s = (kThreshold - before.value) / across;
+  const double rest = 1.0 - s;
+  const double cubic = rest * rest * ((1.0 + 2.0 * s) * before.t + s * across / before.slope) +
+    s * s * ((1.0 + 2.0 * rest) * here.t - rest * across / here.slope);
+  return std::abs(cubic - newton) <= kAgree * std::abs(newton - here.t) ? cubic : newton;
+}
 
 /// The next t to ask; not-a-number when the search has left its axis.
 double next(const SkeletonAxis& axis, Search& search, double f, double slope)
 {
   const bool inside = f >= kThreshold;
   (inside ? search.inner : search.outer) = search.t;
-  const double newton = slope < 0.0 ? search.t - (f - kThreshold) / slope : kUnknown;
+  const Place here{ search.t, f, slope };
+  const double newton = rootFrom(search.before, here);
+  search.before = here;
   if (!std::isnan(search.inner) && !std::isnan(search.outer))
   {
     const double low = std::min(search.inner, search.outer);
@@ -71,6 +104,7 @@ void slideBatch(const PlacedField& field, const std::vector<SkeletonAxis>& all,
   {
     active[k] = k;
     searches[k].t = std::clamp(axes(k).start, axes(k).least, axes(k).most);
+    searches[k].before = { 0.0, axes(k).value, axes(k).slope };
     result[order[k]] = kUnknown;
   }
   Batch batch;

@@ -3,6 +3,7 @@
 
 #include "core/subdivision/PlacedField.h"
 
+#include <limits>
 #include <vector>
 
 namespace hybridtree
@@ -18,16 +19,19 @@ struct SkeletonAxis
   double most = 0.0;             ///< of t
   double step = 0.0;        ///< longest, as long as the surface is not between two known places
   std::int32_t element = 0; ///< of the coarse skeleton that the vertex belongs to, as PlacedField
+  /// The field at the base, not-a-number where it is not known, and its slope along the axis.
+  double value = std::numeric_limits<double>::quiet_NaN();
+  double slope = 0.0;
 };
 
 /// t on f = T for each axis, not-a-number where none was found between least and most.
 ///
-/// Newton's steps, kept within the bracket of an inner and an outer place and halving it where they
-/// leave it; until both are known, outwards from inside and inwards from outside by steps that are
-/// never longer than `step`. |f - T| <= 1e-7 T at the end. All axes go in step, so that the field
-/// is asked in batches, of one element each where there are fields of elements; neighbours in the
-/// list should be neighbours in space.
-/// \param gradient of the field at each place found; null when nobody asks.
+/// Newton's steps, or where they agree those of the cubic through two places, with their slopes,
+/// kept within the bracket of an inner and an outer place and halving it where they leave it; until
+/// both are known, outwards from inside and inwards from outside by steps that are never longer
+/// than `step`. |f - T| <= 1e-7 T at the end. All axes go in step, so that the field is asked in
+/// batches, of one element each where there are fields of elements; neighbours in the list should
+/// be neighbours in space. \param gradient of the field at each place found; null when nobody asks.
 std::vector<double> slideAxes(const PlacedField& field, const std::vector<SkeletonAxis>& axes,
   std::vector<Vec3>* gradient = nullptr);
 

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 
 namespace hybridtree
@@ -37,6 +38,41 @@ TEST(SlideAxes, FindsTheSurfaceFromInsideAndOutside)
     ASSERT_NEAR(place.norm(), 1.0, 1e-6);
     EXPECT_GT(found[k], 0.0);
     EXPECT_LT((gradient[k] + 0.5 * place).norm(), 1e-6); // of 1 / (1 + r^2) at r = 1
+  }
+}
+
+// What is known at the base counts as a place that was asked.
+TEST(SlideAxes, AsksLessWhereTheBaseIsKnown)
+{
+  std::atomic<std::size_t> asked{ 0 };
+  const test::FunctionField counted(
+    [&](const Vec3& p)
+    {
+      ++asked;
+      return kBall(p);
+    });
+  test::Random random(5);
+  std::vector<SkeletonAxis> plain;
+  std::vector<SkeletonAxis> known;
+  for (int k = 0; k < 200; ++k)
+  {
+    const Vec3 direction = random.direction();
+    const double radius = random.uniform(0.8, 1.2);
+    const double value = 1.0 / (1.0 + radius * radius);
+    const double slope = -2.0 * radius * value * value;
+    plain.push_back(axis(radius * direction, direction, (kThreshold - value) / slope));
+    plain.back().least = -1.0;
+    known.push_back(plain.back());
+    known.back().value = value;
+    known.back().slope = slope;
+  }
+  const std::vector<double> expected = slideAxes(counted, plain);
+  const std::size_t before = asked.exchange(0);
+  const std::vector<double> found = slideAxes(counted, known);
+  EXPECT_LT(static_cast<double>(asked), 0.9 * static_cast<double>(before));
+  for (std::size_t k = 0; k < found.size(); ++k)
+  {
+    EXPECT_NEAR(found[k], expected[k], 1e-6);
   }
 }
 
