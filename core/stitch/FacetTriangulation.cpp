@@ -16,9 +16,9 @@ constexpr std::size_t kMostInCavity = 500;
 
 } // namespace
 
-FacetTriangulation::FacetTriangulation(FacetMesh mesh) : mesh_(std::move(mesh))
+FacetTriangulation::FacetTriangulation(FacetMesh mesh)
+  : mesh_(std::move(mesh)), owner_(6 * mesh_.triangles.size())
 {
-  owner_.reserve(6 * mesh_.triangles.size());
   frozen_.assign(mesh_.normals.size(), false);
   this->freeze();
   for (Index t = 0; t < static_cast<Index>(mesh_.triangles.size()); ++t)
@@ -29,7 +29,7 @@ FacetTriangulation::FacetTriangulation(FacetMesh mesh) : mesh_(std::move(mesh))
 
 void FacetTriangulation::freeze()
 {
-  std::unordered_map<std::uint64_t, Index> known;
+  SideTable known(3 * mesh_.triangles.size());
   for (Index t = 0; t < static_cast<Index>(mesh_.triangles.size()); ++t)
   {
     const Triangle& c = mesh_.triangles[t];
@@ -42,12 +42,14 @@ void FacetTriangulation::freeze()
     for (int k = 0; k < 3; ++k)
     {
       // A side that two have in the same direction: no surface to work on.
-      const auto [found, isNew] = known.try_emplace(keyOf({ c[k], c[(k + 1) % 3] }), t);
-      if (!isNew)
+      const Index other = known.find(c[k], c[(k + 1) % 3]);
+      if (other == kNone)
       {
-        frozen_[mesh_.facet[t]] = true;
-        frozen_[mesh_.facet[found->second]] = true;
+        known.put(c[k], c[(k + 1) % 3], t);
+        continue;
       }
+      frozen_[mesh_.facet[t]] = true;
+      frozen_[mesh_.facet[other]] = true;
     }
   }
 }
@@ -57,7 +59,7 @@ void FacetTriangulation::link(Index t)
   const Triangle& c = mesh_.triangles[t];
   for (int k = 0; k < 3; ++k)
   {
-    owner_[keyOf({ c[k], c[(k + 1) % 3] })] = t;
+    owner_.put(c[k], c[(k + 1) % 3], t);
   }
 }
 
@@ -66,14 +68,8 @@ void FacetTriangulation::unlink(Index t)
   const Triangle& c = mesh_.triangles[t];
   for (int k = 0; k < 3; ++k)
   {
-    owner_.erase(keyOf({ c[k], c[(k + 1) % 3] }));
+    owner_.erase(c[k], c[(k + 1) % 3]);
   }
-}
-
-FacetTriangulation::Index FacetTriangulation::owner(const Side& side) const
-{
-  const auto found = owner_.find(keyOf(side));
-  return found == owner_.end() ? kNone : found->second;
 }
 
 FacetTriangulation::Kind FacetTriangulation::kind(const Side& side) const

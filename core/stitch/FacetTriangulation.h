@@ -2,9 +2,9 @@
 #pragma once
 
 #include "core/mesh/TriangleMesh.h"
+#include "core/stitch/SideTable.h"
 
 #include <cstdint>
-#include <unordered_map>
 #include <vector>
 
 namespace hybridtree
@@ -29,7 +29,7 @@ class FacetTriangulation
 {
 public:
   using Index = std::int32_t;
-  static constexpr Index kNone = -1;
+  static constexpr Index kNone = SideTable::kNone;
 
   struct Side
   {
@@ -67,7 +67,7 @@ public:
   double shape(Index t) const;
   Kind kind(const Side& side) const;
   /// The triangle on the left of a side; kNone.
-  Index owner(const Side& side) const;
+  Index owner(const Side& side) const { return owner_.find(side.from, side.to); }
   /// Twice the area of a, b, p in the plane of a triangle.
   double area(Index t, Index a, Index b, const Vec3& p) const;
 
@@ -84,12 +84,6 @@ public:
   FacetMesh take() { return std::move(mesh_); }
 
 private:
-  static std::uint64_t keyOf(const Side& side)
-  {
-    return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(side.from)) << 32) |
-      static_cast<std::uint32_t>(side.to);
-  }
-
   void link(Index t);
   void unlink(Index t);
   void freeze();
@@ -99,8 +93,8 @@ private:
   void fill(Index v, const Cavity& cavity, std::vector<Index>& changed);
 
   FacetMesh mesh_;
-  std::unordered_map<std::uint64_t, Index> owner_; ///< of a side, counter-clockwise
-  std::vector<bool> frozen_;                       ///< per facet
+  SideTable owner_;          ///< of a side, counter-clockwise
+  std::vector<bool> frozen_; ///< per facet
 };
 
 } // namespace hybridtree
