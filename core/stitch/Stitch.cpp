@@ -68,7 +68,18 @@ IslandStore& store()
   return *instance;
 }
 
-/// The same by what the parts are near it, where their objects are new.
+/// Rims of islands that touched others and became one with them. At each edit those would be cut
+/// again only to find that they touch.
+using RimStore = RecentStore<IslandKey, std::vector<PartPoint>>;
+
+RimStore& rimStore()
+{
+  constexpr std::size_t kMostBytes = std::size_t(32) << 20;
+  static RimStore* const instance = new RimStore(kMostBytes); // outlives all statics
+  return *instance;
+}
+
+/// The same as the key of an island by what the parts are near it, where their objects are new.
 struct LocalIslandKey
 {
   CellGrid grid;
@@ -124,11 +135,15 @@ struct Work
   std::optional<LocalParts> local; ///< once it is not known by its key
   LocalIslandKey localKey;
   std::optional<IslandCut> cut;
+  RimStore::ValuePtr knownRim; ///< of the cut, which then is made only if it is needed
   std::shared_ptr<const Island> island;
   double begin = 0.0; ///< its part in the progress of all islands
   double end = 0.0;
 
-  const std::vector<PartPoint>& rim() const { return island ? island->rim : cut->rim; }
+  const std::vector<PartPoint>& rim() const
+  {
+    return island ? island->rim : knownRim ? *knownRim : cut->rim;
+  }
 };
 
 class Stitcher
@@ -291,12 +306,24 @@ private:
     }
   }
 
+  static std::size_t bytesOf(const IslandKey& key)
+  {
+    return key.cells.size() * sizeof(CellSet::Brick) + key.dependencies.size() * sizeof(Dependency);
+  }
+
   static void remember(const Work& work)
   {
-    const std::size_t bytes = work.island->bytes() +
-      work.key.cells.size() * sizeof(CellSet::Brick) +
-      work.key.dependencies.size() * sizeof(Dependency);
-    store().keep(work.key, work.island, bytes);
+    store().keep(work.key, work.island, work.island->bytes() + bytesOf(work.key));
+  }
+
+  static void rememberRim(Work& work)
+  {
+    if (work.cut)
+    {
+      auto rim = std::make_shared<const std::vector<PartPoint>>(std::move(work.cut->rim));
+      const std::size_t bytes = rim->size() * sizeof(PartPoint) + bytesOf(work.key);
+      rimStore().keep(std::move(work.key), std::move(rim), bytes);
+    }
   }
 
   /// Islands that cut triangles at a common point become one. \return whether there are such.
@@ -327,29 +354,39 @@ private:
     }
     for (std::size_t k = 0; k < works_.size(); ++k)
     {
-      if (cells[k].empty())
-      {
-        continue;
-      }
       if (cells[k].size() == works_[k].cells.size())
       {
         united.push_back(std::move(works_[k]));
         continue;
       }
-      cells[k].sort();
-      united.push_back(this->prepare(std::move(cells[k])));
-      this->recall(united.back());
+      Stitcher::rememberRim(works_[k]);
+      if (!cells[k].empty())
+      {
+        cells[k].sort();
+        united.push_back(this->prepare(std::move(cells[k])));
+        this->recall(united.back());
+      }
     }
     works_ = std::move(united);
     return true;
   }
 
+  /// Unless all that is asked of the cut is known.
   void cut(Work& work) const
   {
-    if (!work.island && !work.cut)
+    if (!work.island && !work.cut && !work.knownRim)
     {
-      work.cut = cutIsland(work.parts, work.cells, options_.grid, progress_);
+      work.knownRim = rimStore().find(work.key);
+      if (!work.knownRim)
+      {
+        this->makeCut(work);
+      }
     }
+  }
+
+  void makeCut(Work& work) const
+  {
+    work.cut = cutIsland(work.parts, work.cells, options_.grid, progress_);
   }
 
   void finish(Work& work) const
@@ -357,6 +394,10 @@ private:
     if (work.island)
     {
       return;
+    }
+    if (!work.cut)
+    {
+      this->makeCut(work);
     }
     const bool isLocal = work.local->areAllOf(*work.cut, options_.grid);
     const ProgressPart progress(progress_, work.begin, work.end);
@@ -431,6 +472,7 @@ void forgetIslands()
 {
   store().clear();
   localStore().clear();
+  rimStore().clear();
 }
 
 } // namespace hybridtree
