@@ -17,6 +17,7 @@
 #include "vtkHybridTreeOperand.h"
 #include "vtkHybridTreeProcesses.h"
 #include "vtkHybridTreeProgress.h"
+#include "vtkHybridTreeWarnings.h"
 #include "vtkInformation.h"
 #include "vtkInformationIntegerKey.h"
 #include "vtkInformationIntegerRequestKey.h"
@@ -27,7 +28,6 @@
 #include "vtkStringArray.h"
 
 #include <algorithm>
-#include <sstream>
 
 vtkInformationKeyMacro(vtkHybridTreeAlgorithm, TAKES_TREE, Integer);
 
@@ -42,8 +42,7 @@ struct vtkHybridTreeAlgorithm::State
   vtkMTimeType NodeTime = 0; ///< modification time of the filter that Node belongs to
   Operands NodeOperands;     ///< operands that Node was made from
   hybridtree::FormulationRequest Asked;
-  std::vector<std::string> Told;       ///< warnings about Node
-  std::vector<std::string> ToldBefore; ///< about the node before it, which are not given again
+  hybridtree::ToldWarnings Told;
   std::vector<vtkSmartPointer<vtkDataArray>> FieldArrays; ///< of the last output
 };
 
@@ -73,18 +72,6 @@ void reuseArrays(std::vector<vtkSmartPointer<vtkDataArray>>& last, vtkFieldData*
     data->AddArray(arrays.back()); // in the place of its namesake
   }
   last.swap(arrays);
-}
-
-/// A warning with its numbers taken out, which change with every step of a drag or an animation.
-std::string withoutNumbers(const std::string& text)
-{
-  std::istringstream words(text);
-  std::string plain;
-  for (std::string word; words >> word;)
-  {
-    plain += word.find_first_of("0123456789") == std::string::npos ? word + ' ' : "# ";
-  }
-  return plain;
 }
 
 } // namespace
@@ -248,11 +235,17 @@ void vtkHybridTreeAlgorithm::CollectInputs(vtkInformationVector** inputs)
 }
 
 //------------------------------------------------------------------------------
+std::string vtkHybridTreeAlgorithm::CalledInput(std::size_t port, int number)
+{
+  return this->InputName(static_cast<int>(port)) +
+    (number > 0 ? " " + std::to_string(number) : std::string());
+}
+
+//------------------------------------------------------------------------------
 void vtkHybridTreeAlgorithm::ComplainOfInput(
   std::size_t port, int number, const hybridtree::Error& error)
 {
-  throw hybridtree::InvalidGeometry(this->InputName(static_cast<int>(port)) +
-    (number > 0 ? " " + std::to_string(number) : std::string()) + ": " + error.what());
+  throw hybridtree::InvalidGeometry(this->CalledInput(port, number) + ": " + error.what());
 }
 
 //------------------------------------------------------------------------------
@@ -338,8 +331,7 @@ void vtkHybridTreeAlgorithm::UpdateNode()
     state.NodeOperands != operands)
   {
     state.Node = nullptr;
-    state.ToldBefore.swap(state.Told);
-    state.Told.clear();
+    state.Told.startNode();
     this->Warn(warnings);
     state.Node = this->MakeNode(operands);
     state.NodeOperands = std::move(operands);
@@ -369,6 +361,7 @@ void vtkHybridTreeAlgorithm::WriteOutput(
     ++this->NumberOfMeshings;
     const MeshPtr mesh = this->MakeMesh(*state.Node, progress);
     this->WarnOfLostShape(*mesh);
+    this->WarnOfTinyOperands();
     hybridtree::toPolyData(mesh, this->NeedsNormals(*mesh), output);
     this->Warn(hybridtree::passArrays(arrays, leaves, *mesh, output));
   }
@@ -403,6 +396,35 @@ void vtkHybridTreeAlgorithm::WarnOfLostShape(const hybridtree::TriangleMesh& mes
 }
 
 //------------------------------------------------------------------------------
+void vtkHybridTreeAlgorithm::WarnOfTinyOperands()
+{
+  const State& state = *this->Internals;
+  std::size_t count = 0;
+  for (const std::vector<NodePtr>& nodes : state.NodeOperands)
+  {
+    count += nodes.size();
+  }
+  if (count < 2)
+  {
+    return; // bounds may take longer than a preview, and one that is lost alone is told of
+  }
+  const double edge = this->EdgeLength > 0.0 ? this->EdgeLength : state.Node->defaultEdgeLength();
+  for (std::size_t port = 0; port < state.NodeOperands.size(); ++port)
+  {
+    const std::vector<NodePtr>& nodes = state.NodeOperands[port];
+    for (std::size_t k = 0; k < nodes.size(); ++k)
+    {
+      const std::string warning = hybridtree::warningOfTiny(*nodes[k], edge);
+      if (!warning.empty() && nodes[k] != state.Node)
+      {
+        const int number = nodes.size() > 1 ? static_cast<int>(k) + 1 : 0;
+        this->Warn({ this->CalledInput(port, number) + ": " + warning });
+      }
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
 const char* vtkHybridTreeAlgorithm::InputName(int)
 {
   return "Input";
@@ -433,21 +455,9 @@ void vtkHybridTreeAlgorithm::FillOtherOutputs(vtkInformationVector*) {}
 //------------------------------------------------------------------------------
 void vtkHybridTreeAlgorithm::Warn(const std::vector<std::string>& warnings)
 {
-  State& state = *this->Internals;
-  const auto toldBefore = [&](const std::string& warning)
-  {
-    return std::any_of(state.ToldBefore.begin(), state.ToldBefore.end(),
-      [plain = withoutNumbers(warning)](const std::string& told)
-      { return withoutNumbers(told) == plain; });
-  };
   for (const std::string& warning : warnings)
   {
-    if (std::find(state.Told.begin(), state.Told.end(), warning) != state.Told.end())
-    {
-      continue;
-    }
-    state.Told.push_back(warning);
-    if (!toldBefore(warning)) // dragging would tell it again at every step
+    if (this->Internals->Told.isNews(warning))
     {
       vtkWarningMacro(<< warning);
     }

@@ -202,6 +202,7 @@ private:
 #ifndef __VTK_WRAP__
   void CollectInputs(vtkInformationVector** inputs);
   void ForgetInputs();
+  std::string CalledInput(std::size_t port, int number);
   [[noreturn]] void ComplainOfInput(std::size_t port, int number, const hybridtree::Error& error);
   void Run(vtkInformationVector* outputs);
   Operands ReadOperands(std::vector<std::string>& warnings);
@@ -212,6 +213,7 @@ private:
   void WriteOutput(vtkPolyData* output, bool withMesh, const hybridtree::Progress& progress);
   void Warn(const std::vector<std::string>& warnings);
   void WarnOfLostShape(const hybridtree::TriangleMesh& mesh);
+  void WarnOfTinyOperands();
   static void Clear(vtkInformationVector* outputs);
 
   struct State;

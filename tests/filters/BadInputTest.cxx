@@ -351,6 +351,33 @@ TEST(BadInput, OpenAndCrowdedMeshesAreToldOnce)
   }
 }
 
+TEST(BadInput, PrimitivesTooSmallForTheirBlendAreTold)
+{
+  const auto large = ball();
+  vtkNew<vtkHybridTreePoint> small;
+  small->SetCenter(0.0, 0.0, 0.6);
+  small->SetSurfaceRadius(0.004);
+  small->SetInfluenceRadius(0.008);
+  vtkNew<vtkHybridTreeBlend> blend;
+  blend->AddInputConnection(large->GetOutputPort());
+  blend->AddInputConnection(small->GetOutputPort());
+  Messages messages(blend);
+  blend->Update();
+  EXPECT_EQ(messages.warnings.find("Input 1"), std::string::npos) << messages.warnings;
+  for (const char* word : { "Input 2", "0.008 across", "larger radii", "EdgeLength" })
+  {
+    EXPECT_NE(messages.warnings.find(word), std::string::npos) << messages.warnings;
+  }
+  messages.warnings.clear();
+  blend->SetEdgeLength(0.005);
+  blend->Update();
+  small->SetSurfaceRadius(0.05);
+  small->SetInfluenceRadius(0.1);
+  blend->SetEdgeLength(0.0);
+  blend->Update();
+  EXPECT_EQ(messages.warnings, "");
+}
+
 // In an animation the number in the message is another at each step.
 TEST(BadInput, AWarningThatChangesOnlyItsNumbersIsToldOnce)
 {
