@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <iterator>
 #include <unordered_map>
 
 namespace hybridtree
@@ -26,6 +27,7 @@ const std::string kPoints = "HybridTreePoints:";
 const std::string kTriangles = "HybridTreeTriangles:";
 const std::string kPointData = "HybridTreePointData:";
 const std::string kCellData = "HybridTreeCellData:";
+const std::string kActive = "HybridTreeActive:";
 const std::string kNames = "SourceNames";
 
 bool startsWith(const std::string& text, const std::string& start)
@@ -131,6 +133,48 @@ void gather(vtkDataSetAttributes* data, vtkIdType count, vtkIdList* rows, const 
       part->SetNumberOfTuples(rows->GetNumberOfIds());
       array->GetTuples(rows, part);
       to[name] = part;
+    }
+  }
+}
+
+// What is active of each kind goes on to be so: all kinds but those that stay behind.
+constexpr int kActiveKinds[] = { vtkDataSetAttributes::SCALARS, vtkDataSetAttributes::VECTORS,
+  vtkDataSetAttributes::TCOORDS, vtkDataSetAttributes::TENSORS };
+
+/// The names of the active arrays, by kind, "" where there is none.
+void gatherActive(vtkDataSetAttributes* data, const std::string& key, LeafArrays& to)
+{
+  vtkNew<vtkStringArray> names;
+  names->SetName(key.c_str());
+  bool any = false;
+  for (const int kind : kActiveKinds)
+  {
+    vtkAbstractArray* active = data->GetAbstractAttribute(kind);
+    const std::string name = active ? nameOf(active) : "";
+    names->InsertNextValue(name);
+    any = any || !name.empty();
+  }
+  if (any)
+  {
+    to[key] = names;
+  }
+}
+
+/// Makes active what is so on the first leaf that says.
+void passActive(const LeafArrays& arrays, const std::vector<Leaf>& leaves,
+  const std::string& suffix, vtkDataSetAttributes* data)
+{
+  for (const Leaf& leaf : leaves)
+  {
+    const auto found = leaf.mesh ? arrays.find(kActive + leaf.hash + suffix) : arrays.end();
+    auto* names = found == arrays.end() ? nullptr : vtkStringArray::SafeDownCast(found->second);
+    for (int k = 0; names && k < static_cast<int>(std::size(kActiveKinds)); ++k)
+    {
+      const std::string name = k < names->GetNumberOfValues() ? names->GetValue(k) : "";
+      if (!name.empty() && !data->GetAbstractAttribute(kActiveKinds[k]))
+      {
+        data->SetActiveAttribute(name.c_str(), kActiveKinds[k]);
+      }
     }
   }
 }
@@ -392,7 +436,8 @@ void removeLeaves(vtkFieldData* data)
   {
     const std::string name = nameOf(data->GetAbstractArray(k));
     if (name == "HybridTree" || name == kNames || startsWith(name, kPoints) ||
-      startsWith(name, kTriangles) || startsWith(name, kPointData) || startsWith(name, kCellData))
+      startsWith(name, kTriangles) || startsWith(name, kPointData) || startsWith(name, kCellData) ||
+      startsWith(name, kActive))
     {
       data->RemoveArray(k);
     }
@@ -429,6 +474,8 @@ LeafArrays arraysOf(
   std::copy(leaf.cells.begin(), leaf.cells.end(), cells->GetPointer(0));
   gather(
     input->GetCellData(), input->GetNumberOfCells(), cells, kCellData + hash, arrays, warnings);
+  gatherActive(input->GetPointData(), kActive + hash + "points", arrays);
+  gatherActive(input->GetCellData(), kActive + hash + "cells", arrays);
   return arrays;
 }
 
@@ -439,7 +486,7 @@ LeafArrays arraysIn(vtkFieldData* data)
   {
     vtkAbstractArray* array = data->GetAbstractArray(k);
     const std::string name = nameOf(array);
-    if (startsWith(name, kPointData) || startsWith(name, kCellData))
+    if (startsWith(name, kPointData) || startsWith(name, kCellData) || startsWith(name, kActive))
     {
       arrays[name] = array;
     }
@@ -453,7 +500,7 @@ std::vector<std::string> mergeArrays(const LeafArrays& from, LeafArrays& to)
   for (const auto& [name, array] : from)
   {
     const auto [entry, isNew] = to.emplace(name, array);
-    if (!isNew && !sameContent(entry->second, array))
+    if (!isNew && !startsWith(name, kActive) && !sameContent(entry->second, array))
     {
       differing.push_back("Two inputs are the same mesh with different values of \"" +
         name.substr(name.find(':', name.find(':') + 1) + 1) + "\"; those of the first are passed.");
@@ -493,6 +540,8 @@ std::vector<std::string> passArrays(const LeafArrays& arrays, const std::vector<
     fillCells(mesh, column, result);
     output->GetCellData()->AddArray(result);
   }
+  passActive(arrays, leaves, ":points", output->GetPointData());
+  passActive(arrays, leaves, ":cells", output->GetCellData());
   return untold;
 }
 

@@ -75,7 +75,8 @@ MeshLookup meshesIn(vtkFieldData* data);
 /// mesh leaves: interpolated within the leaf's triangle (real numbers) or taken from its nearest
 /// corner (integers and text); copied for cells. NaN, 0 or "" elsewhere. Arrays of one name from
 /// several leaves become one array, of the type of the first; the return value names those that
-/// could not.
+/// could not. Active scalars, vectors, texture coordinates and tensors are those of the first leaf
+/// that has some.
 std::vector<std::string> passArrays(const LeafArrays& arrays, const std::vector<Leaf>& leaves,
   const TriangleMesh& mesh, vtkPolyData* output);
 

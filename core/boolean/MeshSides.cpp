@@ -307,7 +307,7 @@ private:
   // A ray for the first vertex of every part of the mesh.
   void spread()
   {
-    known_.assign(winding_.size(), false);
+    known_.assign(winding_.size(), MeshSides::kUnused);
     for (std::size_t v = 0; v < winding_.size(); ++v)
     {
       if (winding_[v] == MeshSides::kUnused)
@@ -315,12 +315,16 @@ private:
         continue;
       }
       const std::int32_t root = components_.find(std::int32_t(v));
-      if (!known_[std::size_t(root)])
+      if (known_[std::size_t(root)] == MeshSides::kUnused)
       {
         this->spreadFrom(root, ray_.at(siteOf(mine_, root, mesh_ == 1)));
       }
-      winding_[v] = winding_[std::size_t(root)];
-      told_ = told_ && (this->isTold(winding_[v]) || nearness_.at(mine_.mesh().points[v]));
+      winding_[v] = known_[std::size_t(root)];
+    }
+    for (std::size_t v = 0; v < winding_.size() && crossesItself_ && told_; ++v)
+    {
+      told_ = winding_[v] == MeshSides::kUnused || this->isTold(winding_[v]) ||
+        nearness_.at(mine_.mesh().points[v]);
     }
   }
 
@@ -344,13 +348,13 @@ private:
       front.pop_back();
       for (auto link = linksOf(from); link != links_.end() && link->from == from; ++link)
       {
-        const int next = winding_[std::size_t(from)] + link->step;
-        if (!known_[std::size_t(link->to)])
+        const int next = known_[std::size_t(from)] + link->step;
+        if (known_[std::size_t(link->to)] == MeshSides::kUnused)
         {
           this->set(link->to, next);
           front.push_back(link->to);
         }
-        told_ = told_ && winding_[std::size_t(link->to)] == next;
+        told_ = told_ && known_[std::size_t(link->to)] == next;
       }
     }
   }
@@ -358,8 +362,8 @@ private:
   void set(std::int32_t root, int winding)
   {
     told_ = told_ && std::abs(winding) <= kMost;
-    winding_[std::size_t(root)] = std::int8_t(std::clamp(winding, -kMost, kMost));
-    known_[std::size_t(root)] = true;
+    crossesItself_ = crossesItself_ || !this->isTold(winding);
+    known_[std::size_t(root)] = std::int8_t(std::clamp(winding, -kMost, kMost));
   }
 
   // Between crossings too the other mesh may cross itself by rounding only.
@@ -389,7 +393,8 @@ private:
   std::vector<std::int8_t>& winding_;
   Components components_;
   std::vector<Link> links_;
-  std::vector<bool> known_; // per root
+  std::vector<std::int8_t> known_; // per root; kUnused for not yet
+  bool crossesItself_ = false;     // the other mesh, around a vertex
   bool told_ = true;
 };
 

@@ -122,6 +122,24 @@ TEST(Arrays, NormalsOfTheInputStayBehind)
   }
 }
 
+TEST(Arrays, ActiveOnesStayActive)
+{
+  const auto sphere = paintedSphere();
+  sphere->GetPointData()->SetActiveScalars("Height");
+  vtkNew<vtkHybridTreeMeshField> field;
+  field->SetInputData(sphere);
+  vtkNew<vtkHybridTreeAffineTransform> moved;
+  moved->SetInputConnection(field->GetOutputPort());
+  moved->SetTranslate(0.0, 0.0, 3.0);
+  moved->Update();
+  vtkPolyData* output = moved->GetOutput();
+  ASSERT_TRUE(output->GetPointData()->GetScalars());
+  EXPECT_STREQ(output->GetPointData()->GetScalars()->GetName(), "Height");
+  EXPECT_FALSE(output->GetPointData()->GetTCoords());
+  EXPECT_FALSE(output->GetPointData()->HasArray(""));
+  EXPECT_TRUE(output->GetPointData()->GetNormals());
+}
+
 vtkDataArray* normalsOf(vtkHybridTreeAlgorithm* filter)
 {
   filter->Update();
