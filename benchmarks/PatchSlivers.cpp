@@ -7,6 +7,10 @@
 // globally).
 //
 //   PatchSlivers [mesh of libcgal-demo, such as joint.off]... (default: those named below)
+//   PatchSlivers edits [mesh]... (default: anchor, rotor, pinion)
+//     what an edit takes, on one thread: eight points are blended on, and one is moved 20 times;
+//     medians of the processor time
+#include "core/base/Parallel.h"
 #include "core/mesh/MeshChecks.h"
 #include "core/nodes/Blend.h"
 #include "core/nodes/BlendMesh.h"
@@ -19,6 +23,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <ctime>
 #include <set>
 #include <string>
 #include <utility>
@@ -119,13 +124,14 @@ Tally blendAt(const MeshPtr& mesh, const Triangle& c, int index)
   return tallyOf(made, report);
 }
 
-bool measure(const std::string& name, Tally& all)
+/// Outward; null and a word on it where it is not to be had.
+MeshPtr closedMesh(const std::string& name)
 {
   std::optional<TriangleMesh> found = test::demoMesh(name);
   if (!found || !checkMesh(*found).closedManifold())
   {
     std::printf("%-26s left out: %s\n", name.c_str(), found ? "not closed" : "not found");
-    return false;
+    return nullptr;
   }
   if (signedVolume(*found) < 0.0) // some of them are inside out
   {
@@ -134,7 +140,16 @@ bool measure(const std::string& name, Tally& all)
       std::swap(c[1], c[2]);
     }
   }
-  const auto mesh = std::make_shared<const TriangleMesh>(std::move(*found));
+  return std::make_shared<const TriangleMesh>(std::move(*found));
+}
+
+bool measure(const std::string& name, Tally& all)
+{
+  const MeshPtr mesh = closedMesh(name);
+  if (!mesh)
+  {
+    return false;
+  }
   test::Random random(7);
   Tally tally;
   for (int trial = 0; trial < kTrials; ++trial)
@@ -147,11 +162,78 @@ bool measure(const std::string& name, Tally& all)
   return true;
 }
 
+double millisecondsOf(const Node& node, double edgeLength)
+{
+  const std::clock_t start = std::clock();
+  node.mesh(edgeLength);
+  return 1e3 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+}
+
+bool measureEdits(const std::string& name)
+{
+  constexpr int kBalls = 8;
+  constexpr int kEdits = 20;
+  const MeshPtr mesh = closedMesh(name);
+  if (!mesh)
+  {
+    return false;
+  }
+  const double size = mesh->bounds().sizes().maxCoeff();
+  test::Random random(11);
+  std::vector<Vec3> places;
+  for (int k = 0; k < kBalls; ++k)
+  {
+    const int t = random.integer(0, static_cast<int>(mesh->triangles.size()) - 1);
+    const Triangle& c = mesh->triangles[static_cast<std::size_t>(t)];
+    places.push_back((mesh->points[c[0]] + mesh->points[c[1]] + mesh->points[c[2]]) / 3.0);
+  }
+  std::vector<NodePtr> nodes{ makeMeshNode(mesh, 1.0, size / 20.0, 2) };
+  const auto ballAt = [&](const Vec3& at)
+  {
+    return makePrimitive(
+      std::make_shared<PointSkeleton>(at), Potential::bySurfaceRadius(size / 30.0, size / 15.0, 2));
+  };
+  for (const Vec3& place : places)
+  {
+    nodes.push_back(ballAt(place));
+  }
+  std::vector<double> times;
+  for (int edit = 0; edit <= kEdits; ++edit)
+  {
+    nodes.back() = ballAt(places.back() + edit * size * Vec3(0.002, 0.001, -0.0015));
+    times.push_back(
+      millisecondsOf(*makeBlend(nodes, { BlendMethod::PrimitiveBased, 1.0 }), size / kEdges));
+  }
+  std::sort(times.begin() + 1, times.end());
+  std::printf(
+    "%-26s first %6.1f ms, edits %6.1f ms\n", name.c_str(), times.front(), times[1 + kEdits / 2]);
+  return true;
+}
+
+int editsOf(std::vector<std::string> names)
+{
+  setThreadCount(1);
+  if (names.empty())
+  {
+    names = { "anchor.off", "rotor.off", "pinion.off" };
+  }
+  bool any = false;
+  for (const std::string& name : names)
+  {
+    any = measureEdits(name) || any;
+  }
+  return any ? 0 : 1;
+}
+
 } // namespace
 
 int main(int argc, char** argv)
 {
   std::vector<std::string> names(argv + 1, argv + argc);
+  if (!names.empty() && names.front() == "edits")
+  {
+    return editsOf({ names.begin() + 1, names.end() });
+  }
   if (names.empty())
   {
     names = { "joint.off", "anchor.off", "rotor.off", "cross.off", "cube.off", "couplingdown.off",
