@@ -55,8 +55,8 @@ std::optional<CellSet> markedCells(const std::vector<MarkTerm>& terms,
   std::size_t mostCells, const Progress& progress = Progress::none());
 
 /// Whether far more than `mostCells` cells would be marked, by a sample: some blocks of cells,
-/// evenly spread, so that two hundred cells or so tell. Takes a fraction of the time of marking;
-/// nearly always right from twice as many on, and below as many. The same for any number of
+/// evenly spread, so that two hundred cells or so tell. Takes a fraction of the time of marking; an
+/// estimate, the less certain the nearer to `mostCells` their number is. The same for any number of
 /// threads, and whatever is remembered. \throws TooLarge, Cancelled.
 bool seemFarMoreMarked(const std::vector<MarkTerm>& terms, const Interaction& interaction,
   const CellGrid& grid, const MemoryBudget& budget, std::size_t mostCells,
