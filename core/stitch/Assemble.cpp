@@ -144,6 +144,10 @@ private:
       std::sort(gone_[p].begin(), gone_[p].end());
       triangles_.emplace_back(parts_[p].mesh->triangles.size(), gone_[p], result_.keptTriangles);
       result_.keptTriangles += triangles_.back().count();
+      for (const Selection::Run& run : triangles_.back().runs())
+      {
+        result_.keptRuns.push_back({ p, run.old, run.count });
+      }
     }
     triangleCount_ += result_.keptTriangles;
   }

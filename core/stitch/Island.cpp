@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/stitch/Island.h"
 
+#include "core/base/LargestFirst.h"
 #include "core/mesh/SmoothNormals.h"
 #include "core/polygonize/MemoryBudget.h"
 #include "core/polygonize/SharpCreases.h"
@@ -433,6 +434,16 @@ std::size_t bytesOf(const std::vector<T>& values)
 
 } // namespace
 
+std::vector<std::size_t> sizesOf(const std::vector<KeptPart>& parts)
+{
+  std::vector<std::size_t> sizes;
+  for (const KeptPart& part : parts)
+  {
+    sizes.push_back(part.mesh->triangles.size());
+  }
+  return sizes;
+}
+
 std::size_t Island::bytes() const
 {
   std::size_t sum = sizeof *this + bytesOf(rim) + bytesOf(faults);
@@ -448,21 +459,27 @@ IslandCut cutIsland(const std::vector<KeptPart>& parts, const CellSet& cells, co
   const Progress& progress)
 {
   IslandCut result;
+  result.cuts.resize(parts.size());
+  std::vector<std::vector<std::int32_t>> corners(parts.size()); // of cut triangles
   const std::vector<Box3> boxes = cells.boxes(grid, kRounding);
+  forLargestFirst(sizesOf(parts),
+    [&](std::size_t p)
+    {
+      const TriangleMesh& mesh = *parts[p].mesh;
+      const std::shared_ptr<const KeptMesh> known = KeptMesh::of(parts[p].mesh);
+      CutMesh& cut = result.cuts[p];
+      cut = cutMesh(mesh, known->blocks().near(boxes), cells, grid, progress);
+      gradeCut(mesh, *known, grid.cellSize, cut);
+      for (const std::int32_t t : cut.cutTriangles)
+      {
+        corners[p].insert(corners[p].end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
+      }
+      std::sort(corners[p].begin(), corners[p].end());
+      corners[p].erase(std::unique(corners[p].begin(), corners[p].end()), corners[p].end());
+    });
   for (std::size_t p = 0; p < parts.size(); ++p)
   {
-    const TriangleMesh& mesh = *parts[p].mesh;
-    const std::shared_ptr<const KeptMesh> known = KeptMesh::of(parts[p].mesh);
-    result.cuts.push_back(cutMesh(mesh, known->blocks().near(boxes), cells, grid, progress));
-    gradeCut(mesh, *known, grid.cellSize, result.cuts.back());
-    std::vector<std::int32_t> corners;
-    for (const std::int32_t t : result.cuts.back().cutTriangles)
-    {
-      corners.insert(corners.end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
-    }
-    std::sort(corners.begin(), corners.end());
-    corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
-    for (const std::int32_t v : corners)
+    for (const std::int32_t v : corners[p])
     {
       result.rim.push_back({ static_cast<std::int32_t>(p), v });
     }

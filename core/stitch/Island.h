@@ -51,6 +51,8 @@ struct Island
   std::size_t bytes() const;
 };
 
+std::vector<std::size_t> sizesOf(const std::vector<KeptPart>& parts); ///< in triangles
+
 IslandCut cutIsland(const std::vector<KeptPart>& parts, const CellSet& cells, const CellGrid& grid,
   const Progress& progress);
 

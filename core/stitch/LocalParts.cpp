@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/stitch/LocalParts.h"
 
+#include "core/base/LargestFirst.h"
 #include "core/stitch/CutZone.h"
 #include "core/stitch/KeptMesh.h"
 
@@ -138,18 +139,22 @@ LocalParts::LocalParts(
 {
   for (const KeptPart& part : parts)
   {
-    if (part.isLeaf)
-    {
-      parts_.push_back({ part, {}, {} });
-      continue;
-    }
-    const std::shared_ptr<const KeptMesh> known = KeptMesh::of(part.mesh);
-    const Indices near = trianglesNear(*part.mesh, *known, cells, grid);
-    Part local{ part, trianglesAt(*part.mesh, known->pointTriangles(), cornersOf(*part.mesh, near)),
-      {} };
-    local.points = cornersOf(*part.mesh, local.triangles);
-    parts_.push_back(std::move(local));
+    parts_.push_back({ part, {}, {} });
   }
+  forLargestFirst(sizesOf(parts),
+    [&](std::size_t p)
+    {
+      Part& local = parts_[p];
+      const MeshPtr& mesh = local.part.mesh;
+      if (local.part.isLeaf)
+      {
+        return;
+      }
+      const std::shared_ptr<const KeptMesh> known = KeptMesh::of(mesh);
+      const Indices near = trianglesNear(*mesh, *known, cells, grid);
+      local.triangles = trianglesAt(*mesh, known->pointTriangles(), cornersOf(*mesh, near));
+      local.points = cornersOf(*mesh, local.triangles);
+    });
 }
 
 bool LocalParts::areAllOf(const IslandCut& cut, const CellGrid& grid) const

@@ -165,14 +165,24 @@ public:
     const auto bricks = static_cast<double>(cells.bricks().size());
     MemoryBudget{ options_.maxBytes, options_.grid.cellSize }.check(
       bricks * kBytesPerBrick, bricks * kBrickPoints);
+    std::vector<Work> before = std::move(works_);
     works_.clear();
     for (CellSet& island : islandsOf(cells))
     {
-      works_.emplace_back();
+      const auto same = std::find_if(before.begin(), before.end(),
+        [&](const Work& work) { return work.cells.bricks() == island.bricks(); });
+      works_.push_back(same == before.end() ? Work() : std::move(*same));
       works_.back().cells = std::move(island);
     }
-    this->forEachWork([this](Work& work) { work = this->prepare(std::move(work.cells)); });
-    this->forEachWork([this](Work& work) { this->recall(work); });
+    this->forEachWork(
+      [this](Work& work)
+      {
+        if (!work.island)
+        {
+          work = this->prepare(std::move(work.cells));
+          this->recall(work);
+        }
+      });
     do
     {
       this->forEachWork([this](Work& work) { this->cut(work); });

@@ -39,18 +39,27 @@ struct StitchOptions
   bool unfold = false;
 };
 
+/// Triangles of a part that stay, one after the other.
+struct KeptRun
+{
+  std::size_t part = 0;
+  std::size_t first = 0;
+  std::size_t count = 0;
+};
+
 struct StitchedMesh
 {
   TriangleMesh mesh;
   /// Triangles before this are those of the parts: the same points, normals and origins, bit for
   /// bit. The rest is new: what is left of cut triangles, and the patches.
   std::size_t keptTriangles = 0;
-  std::size_t keptPoints = 0;   ///< points before this are those of the parts
-  std::size_t samplePoints = 0; ///< found on the surface by marching cubes
-  std::size_t cutTriangles = 0; ///< of the parts
-  std::size_t islands = 0;      ///< parts of the surface that are made on their own
-  std::size_t remembered = 0;   ///< of these, those that had been made before
-  int rounds = 1;               ///< more than 1: cells were added
+  std::vector<KeptRun> keptRuns; ///< which these are, in their order
+  std::size_t keptPoints = 0;    ///< points before this are those of the parts
+  std::size_t samplePoints = 0;  ///< found on the surface by marching cubes
+  std::size_t cutTriangles = 0;  ///< of the parts
+  std::size_t islands = 0;       ///< parts of the surface that are made on their own
+  std::size_t remembered = 0;    ///< of these, those that had been made before
+  int rounds = 1;                ///< more than 1: cells were added
 };
 
 /// The surface f = T, from meshes where they are it, and from marching cubes in the marked cells

@@ -144,19 +144,42 @@ RecentStore<CellsKey, PieceCells>& store()
   return *instance;
 }
 
+/// Triangles whose corners are on the surface, and nearly their centers.
+std::vector<char> settledTriangles(const PieceMesh& piece, const std::vector<Vec3>& centers,
+  const PlacedField& field, double tolerance)
+{
+  std::vector<char> settled(piece.triangles.size(), 0);
+  std::vector<std::size_t> triangles; // those to ask for
+  std::vector<PlacedPoint> asked;
+  for (std::size_t t = 0; t < piece.triangles.size(); ++t)
+  {
+    const auto& [a, b, c] = piece.triangles[t];
+    if (piece.onSurface[a] && piece.onSurface[b] && piece.onSurface[c])
+    {
+      triangles.push_back(t);
+      asked.push_back({ centers[t], piece.elements[a] });
+    }
+  }
+  const std::vector<double> values = fieldAt(field, asked);
+  for (std::size_t k = 0; k < triangles.size(); ++k)
+  {
+    settled[triangles[k]] = std::abs(values[k] - kThreshold) <= tolerance ? 1 : 0;
+  }
+  return settled;
+}
+
 } // namespace
 
 PieceCells findPieceCells(
   const PieceMesh& piece, const PlacedField& field, double tolerance, const CellGrid& grid)
 {
-  std::vector<PlacedPoint> centers;
+  std::vector<Vec3> centers;
   centers.reserve(piece.triangles.size());
   for (const auto& [a, b, c] : piece.triangles)
   {
-    centers.push_back(
-      { (piece.points[a] + piece.points[b] + piece.points[c]) / 3.0, piece.elements[a] });
+    centers.push_back((piece.points[a] + piece.points[b] + piece.points[c]) / 3.0);
   }
-  const std::vector<double> values = fieldAt(field, centers);
+  const std::vector<char> settled = settledTriangles(piece, centers, field, tolerance);
   std::vector<Vec3> bases;
   bases.reserve(piece.triangles.size());
   for (const auto& [a, b, c] : piece.triangles)
@@ -168,13 +191,12 @@ PieceCells findPieceCells(
   for (std::size_t t = 0; t < piece.triangles.size(); ++t)
   {
     const auto& [a, b, c] = piece.triangles[t];
-    const bool isSettled = piece.onSurface[a] && piece.onSurface[b] && piece.onSurface[c] &&
-      std::abs(values[t] - kThreshold) <= tolerance;
+    const bool isSettled = settled[t] != 0;
     Box3 box(piece.points[a]);
     box.extend(piece.points[b]);
     box.extend(piece.points[c]);
     // Neighbours around a limb share their base; beyond its thickness begins another part.
-    const double apart = 2.0 * (centers[t].at - bases[t]).norm() + 2.0 * grid.cellSize;
+    const double apart = 2.0 * (centers[t] - bases[t]).norm() + 2.0 * grid.cellSize;
     owners.visit(grid.cellAt(box.min() - margin), grid.cellAt(box.max() + margin),
       [&](CellOwners::Owner& owner)
       {

@@ -50,10 +50,19 @@ private:
   {
     return mesh_.onSurface[edge.a] != 0 && mesh_.onSurface[edge.b] != 0;
   }
+  bool isShort(std::int32_t number) const
+  {
+    return lengths_[number] < kShortest * 0.5 * (radii_[edge(number).a] + radii_[edge(number).b]);
+  }
+  bool isLong(std::int32_t number) const
+  {
+    return isOnSurface(edge(number)) && options_.longestEdge > 0.0 &&
+      lengths_[number] > options_.longestEdge;
+  }
   void placeCage(const PieceCage& cage);
   bool splitEdges();
   std::vector<std::int32_t> newEdges();
-  bool isOff(const Edge& edge, double value, double length) const;
+  bool isOff(const Edge& edge, double value) const;
   void addLongestEdges(std::vector<std::int32_t>& split);
   void addMiddles(const std::vector<std::int32_t>& edges);
   void addPoint(const Vec3& point, const Vec3& normal, bool onSurface);
@@ -108,20 +117,12 @@ std::vector<std::int32_t> Refiner::newEdges()
   return edges;
 }
 
-bool Refiner::isOff(const Edge& edge, double value, double length) const
+/// \param value at the middle.
+bool Refiner::isOff(const Edge& edge, double value) const
 {
-  const double radius = 0.5 * (radii_[edge.a] + radii_[edge.b]);
-  if (length < kShortest * radius)
-  {
-    return false;
-  }
   const double tolerance = options_.refinement * kThreshold;
-  if (!isOnSurface(edge))
-  {
-    return value < kThreshold - tolerance; // what is inside may stay as it is
-  }
-  const bool isLong = options_.longestEdge > 0.0 && length > options_.longestEdge;
-  return isLong || std::abs(value - kThreshold) > tolerance;
+  return isOnSurface(edge) ? std::abs(value - kThreshold) > tolerance
+                           : value < kThreshold - tolerance; // what is inside may stay as it is
 }
 
 std::vector<PlacedPoint> Refiner::middlesOf(const std::vector<std::int32_t>& edges) const
@@ -139,17 +140,27 @@ std::vector<PlacedPoint> Refiner::middlesOf(const std::vector<std::int32_t>& edg
 /// \return whether any edge has a new vertex.
 bool Refiner::splitEdges()
 {
-  const std::vector<std::int32_t> edges = newEdges();
-  const std::vector<double> value = fieldAt(field_, middlesOf(edges));
+  std::vector<std::int32_t> asked; // the length does not tell
   std::vector<std::int32_t> split;
-  for (std::size_t k = 0; k < edges.size(); ++k)
+  for (const std::int32_t number : newEdges())
   {
-    const std::int32_t number = edges[k];
-    if (isOff(edge(number), value[k], lengths_[number]))
+    if (!isShort(number))
     {
-      isSplit_[number] = 1;
-      split.push_back(number);
+      (isLong(number) ? split : asked).push_back(number);
     }
+  }
+  const std::vector<double> value = fieldAt(field_, middlesOf(asked));
+  for (std::size_t k = 0; k < asked.size(); ++k)
+  {
+    if (isOff(edge(asked[k]), value[k]))
+    {
+      split.push_back(asked[k]);
+    }
+  }
+  std::sort(split.begin(), split.end());
+  for (const std::int32_t number : split)
+  {
+    isSplit_[number] = 1;
   }
   addLongestEdges(split);
   requirePieceSize(double(mesh_.points.size() + split.size()));

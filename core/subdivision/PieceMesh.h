@@ -6,6 +6,8 @@
 #include "core/subdivision/PieceCage.h"
 
 #include <cstdint>
+#include <memory>
+#include <mutex>
 #include <vector>
 
 namespace hybridtree
@@ -18,8 +20,18 @@ struct PieceMeshOptions
   double refinement = 0.1;
   /// Edges are split until they are no longer than this, world units; 0: by eta alone.
   double longestEdge = 0.0;
-  /// Fill sourceLeaf, by the skeleton's local field.
+  /// Its triangles will be asked for their pieces (PieceSources.h): the mesh is kept by the
+  /// skeleton's pieces around it, too.
   bool findSources = false;
+};
+
+/// What is known of the nearest pieces to the triangles of a mesh.
+struct KnownSources
+{
+  static constexpr std::int32_t kUnknown = -2;
+
+  std::mutex mutex;
+  std::vector<std::int32_t> leaf; ///< per triangle; empty while all are unknown
 };
 
 /// The surface around one piece. Closed, oriented outward, a 2-manifold; with normals, which are
@@ -29,6 +41,8 @@ struct PieceMesh : TriangleMesh
   std::vector<std::uint8_t> onSurface; ///< per point: 0 inside of other pieces, where no surface is
   std::vector<Vec3> bases;             ///< per point: the place of the skeleton it belongs to
   std::vector<std::int32_t> elements;  ///< per point: the coarse element, as SkeletonAxis::element
+  /// Filled when asked for.
+  std::shared_ptr<KnownSources> sources = std::make_shared<KnownSources>();
 };
 
 /// Lets the vertices of a cage slide to the surface, then splits edges until they follow it.

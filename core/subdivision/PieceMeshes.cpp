@@ -89,7 +89,7 @@ private:
 std::size_t bytesOf(const PieceMesh& mesh, const PieceKey& key)
 {
   return mesh.points.size() * (3 * sizeof(Vec3) + 5) + mesh.triangles.size() * sizeof(Triangle) +
-    mesh.sourceLeaf.size() * sizeof(std::int32_t) + sizeof(PieceMesh) + key.own.bytes();
+    mesh.triangles.size() * sizeof(std::int32_t) + sizeof(PieceMesh) + key.own.bytes();
 }
 
 } // namespace
@@ -143,10 +143,6 @@ std::vector<PieceMeshPtr> pieceMeshes(const SkeletonField& skeleton,
         ? curveCage(pieces.curves[k], skeleton.refined, skeleton.level, field)
         : surfaceCage(pieces.surfaces[k - curves], skeleton.refined, skeleton.level, field);
       auto mesh = std::make_shared<PieceMesh>(refineCage(cage, field, options, progress));
-      if (options.findSources)
-      {
-        skeleton.local->findSources(*mesh, progress);
-      }
       result[k] = mesh;
       if (isKept)
       {

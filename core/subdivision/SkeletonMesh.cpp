@@ -4,6 +4,7 @@
 #include "core/base/LargestFirst.h"
 #include "core/mesh/Dust.h"
 #include "core/subdivision/PieceCells.h"
+#include "core/subdivision/PieceSources.h"
 #include "core/subdivision/UncoveredCells.h"
 
 #include <algorithm>
@@ -166,6 +167,7 @@ std::optional<StitchedMesh> skeletonMesh(const SkeletonField& skeleton,
   stitching.unfold = true;
   CellSet cells = cellsWherePiecesMeet(pieces, skeleton, options.refinement, stitching.grid);
   std::vector<KeptPart> parts;
+  std::vector<PieceMeshPtr> partPieces;
   for (const PieceMeshPtr& piece : pieces)
   {
     if (!piece->triangles.empty())
@@ -173,6 +175,7 @@ std::optional<StitchedMesh> skeletonMesh(const SkeletonField& skeleton,
       KeptPart part;
       part.mesh = piece;
       parts.push_back(std::move(part));
+      partPieces.push_back(piece);
     }
   }
   const ProgressPart rest(progress, 0.4, 1.0);
@@ -181,6 +184,10 @@ std::optional<StitchedMesh> skeletonMesh(const SkeletonField& skeleton,
     : stitch(skeleton.field, parts, std::move(cells), stitching, rest);
   if (result)
   {
+    if (skeleton.local)
+    {
+      findPieceSources(*skeleton.local, partPieces, *result, rest);
+    }
     dropDust(result->mesh, kDust * options.edgeLength);
   }
   return result;
