@@ -16,6 +16,7 @@ namespace
 {
 
 constexpr double kTolerance = 0x1p-46;
+constexpr double kVolumeRounding = 0x1p-52; // of the product of three lengths
 // Flat triangles of a component without thickness, in which two surfaces cross all around.
 constexpr std::size_t kFewest = 4;
 
@@ -92,8 +93,7 @@ private:
       {
         continue;
       }
-      const bool flat = isFlat(mesh_.points[std::size_t(c[0])], mesh_.points[std::size_t(c[1])],
-        mesh_.points[std::size_t(c[2])], tolerance_);
+      const bool flat = this->isFlatNow(c);
       found += flat;
       if (flat || all)
       {
@@ -134,12 +134,22 @@ private:
     return parent;
   }
 
-  // Components whose volume is less than the tolerance times their area: nothing is between.
+  // Whether a triangle is no higher than the tolerance.
+  bool isFlatNow(const Triangle& c) const
+  {
+    return isFlat(mesh_.points[std::size_t(c[0])], mesh_.points[std::size_t(c[1])],
+      mesh_.points[std::size_t(c[2])], tolerance_);
+  }
+
+  // Components whose volume is less than the tolerance times their area: nothing is between. Where
+  // all triangles are flat there is so little area that rounding may give more volume than that.
   void dropThinComponents()
   {
     const std::vector<std::int32_t> component = this->components();
     std::vector<double> volume(mesh_.points.size(), 0.0);
     std::vector<double> area(mesh_.points.size(), 0.0);
+    std::vector<double> rounding(mesh_.points.size(), 0.0);
+    std::vector<char> allFlat(mesh_.points.size(), 1);
     for (const Triangle& c : mesh_.triangles)
     {
       const std::size_t root = std::size_t(component[std::size_t(c[0])]);
@@ -149,11 +159,14 @@ private:
       const Vec3 r = mesh_.points[std::size_t(c[2])] - origin;
       volume[root] += p.dot(q.cross(r)) / 6.0;
       area[root] += 0.5 * (q - p).cross(r - p).norm();
+      rounding[root] += kVolumeRounding * p.norm() * q.norm() * r.norm();
+      allFlat[root] = allFlat[root] != 0 && this->isFlatNow(c);
     }
     for (Triangle& c : mesh_.triangles)
     {
       const std::size_t root = std::size_t(component[std::size_t(c[0])]);
-      if (std::abs(volume[root]) <= tolerance_ * area[root])
+      const double spurious = allFlat[root] != 0 ? rounding[root] : 0.0;
+      if (std::abs(volume[root]) <= tolerance_ * area[root] + spurious)
       {
         c.fill(-1);
       }
