@@ -14,7 +14,7 @@
 //   LocalBlendBenchmark methods [threads] [rounds]
 //     the methods alone
 //   LocalBlendBenchmark pairs FILE [pairs, default 1000] [rounds, default 5] [balls, primitives,
-//     meshes or warps, default balls]
+//     meshes or warps, default balls] [seed, default 15]
 //   LocalBlendBenchmark edits|global|node-based|primitive-based|automatic [threads] [rounds]
 //     one of them alone, for a profiler
 #include "benchmarks/support/BenchmarkMesh.h"
@@ -32,6 +32,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
@@ -323,8 +324,9 @@ int main(int argc, char** argv)
   if (argc > 2 && std::string(argv[1]) == "pairs")
   {
     const std::string kind = argc > 5 ? argv[5] : "balls";
+    const auto seed = static_cast<std::uint64_t>(argc > 6 ? std::atoll(argv[6]) : 15);
     const bool isKnown = benchmark::compareOnPairs(
-      argv[2], argc > 3 ? std::atoi(argv[3]) : 1000, argc > 4 ? std::atoi(argv[4]) : 5, kind);
+      argv[2], argc > 3 ? std::atoi(argv[3]) : 1000, argc > 4 ? std::atoi(argv[4]) : 5, kind, seed);
     if (!isKnown)
     {
       std::printf("There is no kind %s.\n", kind.c_str());

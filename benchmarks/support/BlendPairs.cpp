@@ -336,7 +336,8 @@ struct Tally
 
 } // namespace
 
-bool compareOnPairs(const std::string& file, int count, int rounds, const std::string& kind)
+bool compareOnPairs(
+  const std::string& file, int count, int rounds, const std::string& kind, std::uint64_t seed)
 {
   const std::optional<ShapeMaker> make = makerOf(kind);
   if (!make)
@@ -347,21 +348,21 @@ bool compareOnPairs(const std::string& file, int count, int rounds, const std::s
   std::ofstream csv(file);
   csv << "ratio,global,local,automatic,takesLocal,overFaster,fasterOverItself,cells,border,kept,"
          "cut,made,samples\n";
-  test::Random random(15);
+  test::Random random(seed);
   Tally tally;
   for (int k = 0; k < count; ++k)
   {
     const Shape shape = (*make)(random);
-    const auto seed = static_cast<std::uint64_t>(k);
+    const auto order = static_cast<std::uint64_t>(k);
     Turns<3> turns(
-      shape, { BlendMethod::Global, BlendMethod::NodeBased, BlendMethod::Automatic }, seed);
+      shape, { BlendMethod::Global, BlendMethod::NodeBased, BlendMethod::Automatic }, order);
     for (int round = 0; round < rounds; ++round)
     {
       turns.measure();
     }
     const bool globalIsFaster = turns.medianOf(0) <= turns.medianOf(1);
     const Ratios ratios = ratiosToBest(
-      shape, globalIsFaster ? BlendMethod::Global : BlendMethod::NodeBased, rounds, seed);
+      shape, globalIsFaster ? BlendMethod::Global : BlendMethod::NodeBased, rounds, order);
     const BlendMeshReport local = shape.report(BlendMethod::NodeBased);
     const bool isGlobal = shape.report(BlendMethod::Automatic).method == BlendMethod::Global;
     tally.automatic.push_back(ratios.automatic);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 namespace hybridtree::benchmark
@@ -21,7 +22,9 @@ namespace hybridtree::benchmark
 /// \param kind balls: pairs as in [HT] Fig. 15. primitives: six points and segments at once.
 ///   meshes: a scan or a coarse mesh and a ball. warps: as the first two kinds, under twists,
 ///   tapers and bends, below or above the blend.
+/// \param seed of the shapes.
 /// \return false when there is no such kind.
-bool compareOnPairs(const std::string& file, int count, int rounds, const std::string& kind);
+bool compareOnPairs(
+  const std::string& file, int count, int rounds, const std::string& kind, std::uint64_t seed);
 
 } // namespace hybridtree::benchmark

@@ -21,21 +21,30 @@ public:
     double inCell;    ///< where terms meet
   };
 
-  explicit BlendCost(const Sample& sample) : sample_(sample) {}
+  /// What is meshed.
+  struct Surface
+  {
+    double kept;          ///< area of parts that keep their meshes, in squared cells
+    double givenUp;       ///< of others
+    double creases = 0.0; ///< length of the sharp edges of the first, in cells
+  };
+
+  /// \param faceted whether meshes are blended (Node::isFaceted()).
+  BlendCost(const Sample& sample, bool faceted) : sample_(sample), faceted_(faceted) {}
 
   /// Whether a patch over marked cells, and the copy of what is kept, cost less than the whole
-  /// lattice. \param kept, givenUp area of the surface in squared cells, of parts that keep their
-  /// meshes and of others.
-  bool isLocalCheaper(const CellSet& cells, double kept, double givenUp) const;
+  /// lattice.
+  bool isLocalCheaper(const CellSet& cells, const Surface& surface) const;
 
   /// With more marked cells than this it hardly ever is: no need to find them all.
-  std::size_t mostCells(double kept, double givenUp) const;
+  std::size_t mostCells(const Surface& surface) const;
 
 private:
-  double global(double squares) const;
-  double local(double cells, double border, double kept) const;
+  double global(const Surface& surface) const;
+  double local(double cells, double border, const Surface& surface) const;
 
   Sample sample_;
+  bool faceted_;
 };
 
 } // namespace hybridtree

@@ -93,6 +93,17 @@ double squaresOf(const std::vector<KeptPart>& kept, double cellSize)
   return area / (cellSize * cellSize);
 }
 
+/// Length of the sharp edges of meshes that are leaves, in cells.
+double creasesOf(const std::vector<KeptPart>& kept, double cellSize)
+{
+  double length = 0.0;
+  for (const KeptPart& part : kept)
+  {
+    length += part.isLeaf ? KeptMesh::of(part.mesh)->creaseLength() : 0.0;
+  }
+  return length / cellSize;
+}
+
 /// The cells that are the same for all methods: what is too thin for them is so for each.
 CellGrid gridOf(const Node& blend, double edgeLength)
 {
@@ -379,7 +390,8 @@ TriangleMesh meshByParts(const Node& blend, const std::vector<BlendPart>& parts,
 {
   report.method = options.method;
   const bool choose = options.method == BlendMethod::Automatic;
-  const BlendCost cost(choose ? sampleCost(terms, edgeLength) : BlendCost::Sample{ 0.0, 0.0 });
+  const BlendCost cost(
+    choose ? sampleCost(terms, edgeLength) : BlendCost::Sample{ 0.0, 0.0 }, blend.isFaceted());
   const MemoryBudget budget{ kMaxBytes, edgeLength };
   const CellGrid grid = gridOf(blend, edgeLength);
   const auto mark = [&](std::size_t mostCells)
@@ -388,26 +400,26 @@ TriangleMesh meshByParts(const Node& blend, const std::vector<BlendPart>& parts,
       terms, interaction, grid, budget, mostCells, ProgressPart(progress, 0.3, 0.4));
   };
   const double givenUp = choose ? squaresGivenUp(terms, grid.cellSize) : 0.0;
-  const auto isSurelyGlobal = [&](double squares)
+  const auto isSurelyGlobal = [&](const BlendCost::Surface& surface)
   {
-    return seemFarMoreMarked(terms, interaction, grid, budget, cost.mostCells(squares, givenUp),
-      ProgressPart(progress, 0.3, 0.3));
+    return seemFarMoreMarked(
+      terms, interaction, grid, budget, cost.mostCells(surface), ProgressPart(progress, 0.3, 0.3));
   };
-  const auto markIfCheaper = [&](double squares)
+  const auto markIfCheaper = [&](const BlendCost::Surface& surface)
   {
     std::optional<CellSet> cells;
-    if (!isSurelyGlobal(squares))
+    if (!isSurelyGlobal(surface))
     {
-      cells = mark(cost.mostCells(squares, givenUp));
+      cells = mark(cost.mostCells(surface));
     }
-    return cells && cost.isLocalCheaper(*cells, squares, givenUp) ? cells : std::nullopt;
+    return cells && cost.isLocalCheaper(*cells, surface) ? cells : std::nullopt;
   };
   std::optional<CellSet> cells;
   // Skeletons are sampled whole in no time: there the choice comes before anything is meshed.
   const bool chooseFirst = choose && !blend.isFaceted();
-  if (chooseFirst && !isSurelyGlobal(squaresByBoxes(terms, edgeLength)))
+  if (chooseFirst && !isSurelyGlobal({ squaresByBoxes(terms, edgeLength), givenUp }))
   {
-    cells = markIfCheaper(squaresByPoints(terms, edgeLength));
+    cells = markIfCheaper({ squaresByPoints(terms, edgeLength), givenUp });
   }
   if (chooseFirst && !cells)
   {
@@ -423,7 +435,10 @@ TriangleMesh meshByParts(const Node& blend, const std::vector<BlendPart>& parts,
   if (!chooseFirst || keepingCount(terms) < keeping)
   {
     const bool byCost = choose && !isFinerThanLattice(parts, terms, edgeLength);
-    cells = byCost ? markIfCheaper(squaresOf(kept, edgeLength)) : mark(kAllCells);
+    const auto surface = [&]() -> BlendCost::Surface {
+      return { squaresOf(kept, edgeLength), givenUp, creasesOf(kept, edgeLength) };
+    };
+    cells = byCost ? markIfCheaper(surface()) : mark(kAllCells);
   }
   const ProgressPart rest(progress, 0.4, 1.0);
   return cells ? stitchOver(blend, field, kept, std::move(*cells), grid, report, rest)

@@ -30,7 +30,7 @@ constexpr double kSubdivisionSkeleton = 0.16;
 
 // Of a mesh: to find where to look, and more where many triangles are near.
 constexpr double kMesh = 0.25;
-constexpr double kMeshDensity = 0.4; // for the root of triangles per squared cell
+constexpr double kMeshDensity = 0.61; // for the root of triangles per squared cell
 
 // Operands that reach a brick, where there are many.
 constexpr std::size_t kFewOperands = 2;

@@ -52,6 +52,34 @@ bool areFansClosed(const TriangleMesh& mesh, const PointTriangles& triangles)
   return good;
 }
 
+constexpr double kCreaseCosine = 0.866;
+
+/// Of those sides of a triangle that it shares with one of a higher number.
+double creaseLengthAt(const TriangleMesh& mesh, const PointTriangles& triangles, std::size_t t)
+{
+  const Triangle& corners = mesh.triangles[t];
+  const Vec3 normal = areaNormal(mesh, t);
+  double length = 0.0;
+  for (int side = 0; side < 3; ++side)
+  {
+    const std::int32_t a = corners[side];
+    const std::int32_t b = corners[(side + 1) % 3];
+    const std::int32_t* const begin = triangles.of(a);
+    for (const std::int32_t* other = begin; other != begin + triangles.count(a); ++other)
+    {
+      const auto n = static_cast<std::size_t>(*other);
+      const Triangle& c = mesh.triangles[n];
+      if (n > t && std::find(c.begin(), c.end(), b) != c.end())
+      {
+        const Vec3 beyond = areaNormal(mesh, n);
+        const bool isSharp = normal.dot(beyond) < kCreaseCosine * normal.norm() * beyond.norm();
+        length += isSharp ? (mesh.points[a] - mesh.points[b]).norm() : 0.0;
+      }
+    }
+  }
+  return length;
+}
+
 } // namespace
 
 PointTriangles::PointTriangles(const TriangleMesh& mesh)
@@ -111,6 +139,19 @@ double KeptMesh::area() const
       }
     });
   return area_;
+}
+
+double KeptMesh::creaseLength() const
+{
+  std::call_once(creasesOnce_,
+    [&]
+    {
+      for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
+      {
+        creaseLength_ += creaseLengthAt(mesh_, this->pointTriangles(), t);
+      }
+    });
+  return creaseLength_;
 }
 
 Box3 KeptMesh::bounds() const

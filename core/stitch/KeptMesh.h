@@ -49,6 +49,9 @@ public:
   double area() const;
   Box3 bounds() const;
 
+  /// Of the edges at which two triangles meet at more than 30 degrees. \pre isSound()
+  double creaseLength() const;
+
   /// The triangles at each point.
   const PointTriangles& pointTriangles() const;
 
@@ -56,9 +59,11 @@ public:
 
 private:
   const TriangleMesh& mesh_;
-  mutable std::once_flag soundOnce_, areaOnce_, boundsOnce_, trianglesOnce_, blocksOnce_;
+  mutable std::once_flag soundOnce_, areaOnce_, boundsOnce_, creasesOnce_, trianglesOnce_,
+    blocksOnce_;
   mutable bool sound_ = false;
   mutable double area_ = 0.0;
+  mutable double creaseLength_ = 0.0;
   mutable Box3 bounds_;
   mutable std::optional<PointTriangles> triangles_;
   mutable std::optional<TriangleBlocks> blocks_;

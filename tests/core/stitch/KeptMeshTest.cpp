@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 
 namespace hybridtree::test
@@ -184,6 +185,21 @@ TEST(KeptMesh, SoundMeshesAreClosedManifoldsWithNormals)
   wild.normals.assign(wild.points.size(), Vec3::UnitX());
   wild.triangles[3][1] = static_cast<std::int32_t>(wild.points.size());
   EXPECT_FALSE(KeptMesh(wild).isSound());
+}
+
+TEST(KeptMesh, CreasesAreTheSharpEdges)
+{
+  Random random(33);
+  for (int trial = 0; trial < 20; ++trial)
+  {
+    const Vec3 side(random.uniform(0.1, 3.0), random.uniform(0.1, 3.0), random.uniform(0.1, 3.0));
+    const double edges = 4.0 * side.sum();
+    EXPECT_NEAR(KeptMesh(box(Vec3::Zero(), side)).creaseLength(), edges, 1e-12 * edges);
+  }
+  const TriangleMesh icosahedron = icosphere(1.0, 0); // 42 degrees
+  const double edge = 4.0 / std::sqrt(10.0 + 2.0 * std::sqrt(5.0));
+  EXPECT_NEAR(KeptMesh(icosahedron).creaseLength(), 30.0 * edge, 1e-9);
+  EXPECT_EQ(KeptMesh(icosphere(1.0, 3)).creaseLength(), 0.0);
 }
 
 } // namespace
