@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <utility>
 
 namespace hybridtree
 {
@@ -62,8 +63,12 @@ double creaseLengthAt(const TriangleMesh& mesh, const PointTriangles& triangles,
   double length = 0.0;
   for (int side = 0; side < 3; ++side)
   {
-    const std::int32_t a = corners[side];
-    const std::int32_t b = corners[(side + 1) % 3];
+    std::int32_t a = corners[side];
+    std::int32_t b = corners[(side + 1) % 3];
+    if (triangles.count(b) < triangles.count(a))
+    {
+      std::swap(a, b); // the tip of a cone may have all triangles around it
+    }
     const std::int32_t* const begin = triangles.of(a);
     for (const std::int32_t* other = begin; other != begin + triangles.count(a); ++other)
     {
