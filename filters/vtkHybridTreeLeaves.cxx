@@ -6,8 +6,8 @@
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkFieldData.h"
+#include "vtkHybridTreeLeafColumns.h"
 #include "vtkIdList.h"
-#include "vtkMath.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
@@ -38,16 +38,6 @@ bool startsWith(const std::string& text, const std::string& start)
 std::string nameOf(vtkAbstractArray* array)
 {
   return array->GetName() ? array->GetName() : "";
-}
-
-/// An array of the type of another, empty. Never an implicit one, which no file could hold.
-vtkSmartPointer<vtkAbstractArray> arrayLike(vtkAbstractArray* other, const std::string& name)
-{
-  auto array = vtk::TakeSmartPointer(vtkAbstractArray::CreateArray(other->GetDataType()));
-  array->SetName(name.c_str());
-  array->SetNumberOfComponents(other->GetNumberOfComponents());
-  array->CopyComponentNames(other);
-  return array;
 }
 
 InvalidText damaged(const std::string& hash, const std::string& what)
@@ -216,15 +206,7 @@ bool sameContent(vtkAbstractArray* a, vtkAbstractArray* b)
 
 // ---------------------------------------------------------------------------- arrays of an output
 
-/// One array of the output: per leaf the array it comes from, or null.
-struct Column
-{
-  explicit Column(std::size_t leaves) : sources(leaves, nullptr) {}
-
-  std::vector<vtkAbstractArray*> sources;
-  std::vector<vtkSmartPointer<vtkAbstractArray>> converted; ///< keeps those that changed type
-};
-using Columns = std::map<std::string, Column>;
+using Columns = std::map<std::string, LeafColumn>;
 
 Columns columnsOf(
   const LeafArrays& arrays, const std::vector<Leaf>& leaves, const std::string& prefix)
@@ -254,116 +236,6 @@ Columns columnsOf(
     }
   }
   return columns;
-}
-
-bool isReal(vtkAbstractArray* array)
-{
-  return array->GetDataType() == VTK_FLOAT || array->GetDataType() == VTK_DOUBLE;
-}
-
-/// An array for the column, of the type of its first source, holding nothing but what stands for
-/// "no value"; the other sources are brought to that type, or left out and told.
-vtkSmartPointer<vtkAbstractArray> startColumn(
-  const std::string& name, Column& column, std::size_t rows, std::vector<std::string>& untold)
-{
-  vtkSmartPointer<vtkAbstractArray> result;
-  for (vtkAbstractArray*& source : column.sources)
-  {
-    if (!source)
-    {
-      continue;
-    }
-    if (!result)
-    {
-      result = arrayLike(source, name);
-    }
-    else if (source->GetNumberOfComponents() != result->GetNumberOfComponents() ||
-      (source->GetDataType() != result->GetDataType() &&
-        !(source->IsNumeric() && result->IsNumeric())))
-    {
-      source = nullptr;
-      untold.push_back("The array \"" + name +
-        "\" is not of the same kind on all input meshes; that of the first is passed.");
-    }
-    else if (source->GetDataType() != result->GetDataType())
-    {
-      column.converted.push_back(arrayLike(result, name));
-      column.converted.back()->DeepCopy(source);
-      source = column.converted.back();
-    }
-  }
-  result->SetNumberOfTuples(static_cast<vtkIdType>(rows));
-  if (auto* numbers = vtkDataArray::SafeDownCast(result))
-  {
-    numbers->Fill(isReal(result) ? vtkMath::Nan() : 0.0);
-  }
-  return result;
-}
-
-/// Values at the vertices that lie on leaves.
-class VertexValues
-{
-public:
-  VertexValues(const TriangleMesh& mesh, const std::vector<Leaf>& leaves)
-    : mesh_(mesh), leaves_(leaves)
-  {
-    ids_->SetNumberOfIds(3);
-  }
-
-  void fill(const Column& column, vtkAbstractArray* result) const
-  {
-    const bool real = isReal(result);
-    for (std::size_t v = 0; v < mesh_.vertexOrigin.size(); ++v)
-    {
-      const VertexOrigin& origin = mesh_.vertexOrigin[v];
-      vtkAbstractArray* source = origin.leaf < 0 || origin.triangle < 0
-        ? nullptr
-        : column.sources[static_cast<std::size_t>(origin.leaf)];
-      if (source)
-      {
-        this->set(static_cast<vtkIdType>(v), origin, source, real, result);
-      }
-    }
-  }
-
-private:
-  void set(vtkIdType row, const VertexOrigin& origin, vtkAbstractArray* source, bool real,
-    vtkAbstractArray* result) const
-  {
-    const Triangle& corners = leaves_[static_cast<std::size_t>(origin.leaf)]
-                                .mesh->triangles[static_cast<std::size_t>(origin.triangle)];
-    double weights[3] = { 1.0 - origin.u - origin.v, origin.u, origin.v };
-    const auto nearest = std::max_element(weights, weights + 3) - weights;
-    if (!real || weights[nearest] == 1.0)
-    {
-      result->SetTuple(row, corners[static_cast<std::size_t>(nearest)], source);
-      return;
-    }
-    for (int k = 0; k < 3; ++k)
-    {
-      ids_->SetId(k, corners[static_cast<std::size_t>(k)]);
-    }
-    result->InterpolateTuple(row, ids_, source, weights);
-  }
-
-  const TriangleMesh& mesh_;
-  const std::vector<Leaf>& leaves_;
-  vtkNew<vtkIdList> ids_;
-};
-
-void fillCells(const TriangleMesh& mesh, const Column& column, vtkAbstractArray* result)
-{
-  for (std::size_t t = 0; t < mesh.sourceTriangle.size(); ++t)
-  {
-    const std::int32_t leaf = mesh.sourceLeaf[t];
-    vtkAbstractArray* source = leaf < 0 || mesh.sourceTriangle[t] < 0
-      ? nullptr
-      : column.sources[static_cast<std::size_t>(leaf)];
-    if (source)
-    {
-      result->SetTuple(static_cast<vtkIdType>(t), mesh.sourceTriangle[t], source);
-    }
-  }
 }
 
 // ---------------------------------------------------------------------------- meshes
@@ -527,11 +399,10 @@ std::vector<std::string> passArrays(const LeafArrays& arrays, const std::vector<
   const TriangleMesh& mesh, vtkPolyData* output)
 {
   std::vector<std::string> untold;
-  const VertexValues vertices(mesh, leaves);
   for (auto& [name, column] : columnsOf(arrays, leaves, kPointData))
   {
     const auto result = startColumn(name, column, mesh.points.size(), untold);
-    vertices.fill(column, result);
+    fillPoints(mesh, leaves, column, result);
     output->GetPointData()->AddArray(result);
   }
   for (auto& [name, column] : columnsOf(arrays, leaves, kCellData))

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkHybridTreeLeafColumns.h"
+
+#include "vtkAbstractArray.h"
+#include "vtkDataArray.h"
+#include "vtkIdList.h"
+#include "vtkMath.h"
+#include "vtkNew.h"
+
+#include <algorithm>
+
+namespace hybridtree
+{
+namespace
+{
+
+bool isReal(vtkAbstractArray* array)
+{
+  return array->GetDataType() == VTK_FLOAT || array->GetDataType() == VTK_DOUBLE;
+}
+
+/// Values at the vertices that lie on leaves.
+class VertexValues
+{
+public:
+  VertexValues(const TriangleMesh& mesh, const std::vector<Leaf>& leaves)
+    : mesh_(mesh), leaves_(leaves)
+  {
+    ids_->SetNumberOfIds(3);
+  }
+
+  void fill(const LeafColumn& column, vtkAbstractArray* result) const
+  {
+    const bool real = isReal(result);
+    for (std::size_t v = 0; v < mesh_.vertexOrigin.size(); ++v)
+    {
+      const VertexOrigin& origin = mesh_.vertexOrigin[v];
+      vtkAbstractArray* source = origin.leaf < 0 || origin.triangle < 0
+        ? nullptr
+        : column.sources[static_cast<std::size_t>(origin.leaf)];
+      if (source)
+      {
+        this->set(static_cast<vtkIdType>(v), origin, source, real, result);
+      }
+    }
+  }
+
+private:
+  void set(vtkIdType row, const VertexOrigin& origin, vtkAbstractArray* source, bool real,
+    vtkAbstractArray* result) const
+  {
+    const Triangle& corners = leaves_[static_cast<std::size_t>(origin.leaf)]
+                                .mesh->triangles[static_cast<std::size_t>(origin.triangle)];
+    double weights[3] = { 1.0 - origin.u - origin.v, origin.u, origin.v };
+    const auto nearest = std::max_element(weights, weights + 3) - weights;
+    if (!real || weights[nearest] == 1.0)
+    {
+      result->SetTuple(row, corners[static_cast<std::size_t>(nearest)], source);
+      return;
+    }
+    for (int k = 0; k < 3; ++k)
+    {
+      ids_->SetId(k, corners[static_cast<std::size_t>(k)]);
+    }
+    result->InterpolateTuple(row, ids_, source, weights);
+  }
+
+  const TriangleMesh& mesh_;
+  const std::vector<Leaf>& leaves_;
+  vtkNew<vtkIdList> ids_;
+};
+
+} // namespace
+
+vtkSmartPointer<vtkAbstractArray> arrayLike(vtkAbstractArray* other, const std::string& name)
+{
+  auto array = vtk::TakeSmartPointer(vtkAbstractArray::CreateArray(other->GetDataType()));
+  array->SetName(name.c_str());
+  array->SetNumberOfComponents(other->GetNumberOfComponents());
+  array->CopyComponentNames(other);
+  return array;
+}
+
+vtkSmartPointer<vtkAbstractArray> startColumn(
+  const std::string& name, LeafColumn& column, std::size_t rows, std::vector<std::string>& untold)
+{
+  vtkSmartPointer<vtkAbstractArray> result;
+  for (vtkAbstractArray*& source : column.sources)
+  {
+    if (!source)
+    {
+      continue;
+    }
+    if (!result)
+    {
+      result = arrayLike(source, name);
+    }
+    else if (source->GetNumberOfComponents() != result->GetNumberOfComponents() ||
+      (source->GetDataType() != result->GetDataType() &&
+        !(source->IsNumeric() && result->IsNumeric())))
+    {
+      source = nullptr;
+      untold.push_back("The array \"" + name +
+        "\" is not of the same kind on all input meshes; that of the first is passed.");
+    }
+    else if (source->GetDataType() != result->GetDataType())
+    {
+      column.converted.push_back(arrayLike(result, name));
+      column.converted.back()->DeepCopy(source);
+      source = column.converted.back();
+    }
+  }
+  result->SetNumberOfTuples(static_cast<vtkIdType>(rows));
+  if (auto* numbers = vtkDataArray::SafeDownCast(result))
+  {
+    numbers->Fill(isReal(result) ? vtkMath::Nan() : 0.0);
+  }
+  return result;
+}
+
+void fillPoints(const TriangleMesh& mesh, const std::vector<Leaf>& leaves, const LeafColumn& column,
+  vtkAbstractArray* result)
+{
+  VertexValues(mesh, leaves).fill(column, result);
+}
+
+void fillCells(const TriangleMesh& mesh, const LeafColumn& column, vtkAbstractArray* result)
+{
+  for (std::size_t t = 0; t < mesh.sourceTriangle.size(); ++t)
+  {
+    const std::int32_t leaf = mesh.sourceLeaf[t];
+    vtkAbstractArray* source = leaf < 0 || mesh.sourceTriangle[t] < 0
+      ? nullptr
+      : column.sources[static_cast<std::size_t>(leaf)];
+    if (source)
+    {
+      result->SetTuple(static_cast<vtkIdType>(t), mesh.sourceTriangle[t], source);
+    }
+  }
+}
+
+} // namespace hybridtree
