@@ -120,11 +120,7 @@ private:
     {
       return false;
     }
-    const Index g = links_.twin(h);
-    const Index a = links_.from(h);
-    const Index b = links_.to(h);
-    const Index c = links_.opposite(h);
-    const Index d = links_.opposite(g);
+    const auto [g, a, b, c, d] = this->aroundEdge(h);
     const double neighbour = this->height(b, a, d);
     const Vec3 normal = (this->at(a) - this->at(b)).cross(this->at(d) - this->at(b));
     const auto isTurned = [&](Index p, Index q, Index r)
@@ -141,6 +137,13 @@ private:
     owner_.place_[std::size_t(h / 3)] = owner_.place_[std::size_t(g / 3)];
     links_.flip(h);
     return true;
+  }
+
+  // Its twin, where it starts and ends, and the corners opposite of it on either side.
+  std::array<Index, 5> aroundEdge(Index h) const
+  {
+    const Index g = links_.twin(h);
+    return { g, links_.from(h), links_.to(h), links_.opposite(h), links_.opposite(g) };
   }
 
   Vec3 normal(Index a, Index b, Index c) const
@@ -161,15 +164,11 @@ private:
     return false;
   }
 
-  // Whether the surface turns back on itself at an edge, and a flip makes it less: what then faces as
-  // the larger triangle did is of its face.
+  // Whether the surface turns back on itself at an edge, and a flip makes it less: what then faces
+  // as the larger triangle did is of its face.
   bool isFolded(Index h)
   {
-    const Index g = links_.twin(h);
-    const Index a = links_.from(h);
-    const Index b = links_.to(h);
-    const Index c = links_.opposite(h);
-    const Index d = links_.opposite(g);
+    const auto [g, a, b, c, d] = this->aroundEdge(h);
     const Vec3 here = this->normal(a, b, c);
     const Vec3 there = this->normal(b, a, d);
     if (!(here.dot(there) < 0.0))
