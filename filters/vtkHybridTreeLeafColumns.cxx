@@ -29,9 +29,10 @@ public:
     ids_->SetNumberOfIds(3);
   }
 
-  void fill(const LeafColumn& column, vtkAbstractArray* result) const
+  bool fill(const LeafColumn& column, vtkAbstractArray* result) const
   {
     const bool real = isReal(result);
+    bool all = mesh_.vertexOrigin.size() == mesh_.points.size();
     for (std::size_t v = 0; v < mesh_.vertexOrigin.size(); ++v)
     {
       const VertexOrigin& origin = mesh_.vertexOrigin[v];
@@ -42,7 +43,9 @@ public:
       {
         this->set(static_cast<vtkIdType>(v), origin, source, real, result);
       }
+      all = all && source;
     }
+    return all;
   }
 
 private:
@@ -118,14 +121,15 @@ vtkSmartPointer<vtkAbstractArray> startColumn(
   return result;
 }
 
-void fillPoints(const TriangleMesh& mesh, const std::vector<Leaf>& leaves, const LeafColumn& column,
+bool fillPoints(const TriangleMesh& mesh, const std::vector<Leaf>& leaves, const LeafColumn& column,
   vtkAbstractArray* result)
 {
-  VertexValues(mesh, leaves).fill(column, result);
+  return VertexValues(mesh, leaves).fill(column, result);
 }
 
-void fillCells(const TriangleMesh& mesh, const LeafColumn& column, vtkAbstractArray* result)
+bool fillCells(const TriangleMesh& mesh, const LeafColumn& column, vtkAbstractArray* result)
 {
+  bool all = mesh.sourceTriangle.size() == mesh.triangles.size();
   for (std::size_t t = 0; t < mesh.sourceTriangle.size(); ++t)
   {
     const std::int32_t leaf = mesh.sourceLeaf[t];
@@ -136,7 +140,9 @@ void fillCells(const TriangleMesh& mesh, const LeafColumn& column, vtkAbstractAr
     {
       result->SetTuple(static_cast<vtkIdType>(t), mesh.sourceTriangle[t], source);
     }
+    all = all && source;
   }
+  return all;
 }
 
 } // namespace hybridtree

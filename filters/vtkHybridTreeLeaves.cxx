@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <cctype>
 #include <iterator>
+#include <set>
 #include <unordered_map>
 
 namespace hybridtree
@@ -150,9 +151,10 @@ void gatherActive(vtkDataSetAttributes* data, const std::string& key, LeafArrays
   }
 }
 
-/// Makes active what is so on the first leaf that says.
+/// Makes active what is so on the first leaf that says; scalars only where all of the output has
+/// them, or views would color by them and show the rest as missing.
 void passActive(const LeafArrays& arrays, const std::vector<Leaf>& leaves,
-  const std::string& suffix, vtkDataSetAttributes* data)
+  const std::string& suffix, const std::set<std::string>& complete, vtkDataSetAttributes* data)
 {
   for (const Leaf& leaf : leaves)
   {
@@ -161,7 +163,9 @@ void passActive(const LeafArrays& arrays, const std::vector<Leaf>& leaves,
     for (int k = 0; names && k < static_cast<int>(std::size(kActiveKinds)); ++k)
     {
       const std::string name = k < names->GetNumberOfValues() ? names->GetValue(k) : "";
-      if (!name.empty() && !data->GetAbstractAttribute(kActiveKinds[k]))
+      const bool fits =
+        kActiveKinds[k] != vtkDataSetAttributes::SCALARS || complete.count(name) > 0;
+      if (!name.empty() && fits && !data->GetAbstractAttribute(kActiveKinds[k]))
       {
         data->SetActiveAttribute(name.c_str(), kActiveKinds[k]);
       }
@@ -399,20 +403,28 @@ std::vector<std::string> passArrays(const LeafArrays& arrays, const std::vector<
   const TriangleMesh& mesh, vtkPolyData* output)
 {
   std::vector<std::string> untold;
+  std::set<std::string> completePoints;
+  std::set<std::string> completeCells;
   for (auto& [name, column] : columnsOf(arrays, leaves, kPointData))
   {
     const auto result = startColumn(name, column, mesh.points.size(), untold);
-    fillPoints(mesh, leaves, column, result);
+    if (fillPoints(mesh, leaves, column, result))
+    {
+      completePoints.insert(name);
+    }
     output->GetPointData()->AddArray(result);
   }
   for (auto& [name, column] : columnsOf(arrays, leaves, kCellData))
   {
     const auto result = startColumn(name, column, mesh.triangles.size(), untold);
-    fillCells(mesh, column, result);
+    if (fillCells(mesh, column, result))
+    {
+      completeCells.insert(name);
+    }
     output->GetCellData()->AddArray(result);
   }
-  passActive(arrays, leaves, ":points", output->GetPointData());
-  passActive(arrays, leaves, ":cells", output->GetCellData());
+  passActive(arrays, leaves, ":points", completePoints, output->GetPointData());
+  passActive(arrays, leaves, ":cells", completeCells, output->GetCellData());
   return untold;
 }
 

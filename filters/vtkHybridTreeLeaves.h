@@ -76,7 +76,7 @@ MeshLookup meshesIn(vtkFieldData* data);
 /// corner (integers and text); copied for cells. NaN, 0 or "" elsewhere. Arrays of one name from
 /// several leaves become one array, of the type of the first; the return value names those that
 /// could not. Active scalars, vectors, texture coordinates and tensors are those of the first leaf
-/// that has some.
+/// that has some, scalars only where all of the output has a value.
 std::vector<std::string> passArrays(const LeafArrays& arrays, const std::vector<Leaf>& leaves,
   const TriangleMesh& mesh, vtkPolyData* output);
 

@@ -140,6 +140,20 @@ TEST(Arrays, ActiveOnesStayActive)
   EXPECT_TRUE(output->GetPointData()->GetNormals());
 }
 
+// Views color by active scalars: what has none would be shown as missing.
+TEST(Arrays, ScalarsOfAPartAreNotActive)
+{
+  const auto sphere = paintedSphere();
+  sphere->GetPointData()->SetActiveScalars("Height");
+  const auto round = ball();
+  vtkNew<vtkHybridTreeBlend> blend;
+  blend->AddInputData(sphere);
+  blend->AddInputConnection(round->GetOutputPort());
+  blend->Update();
+  EXPECT_TRUE(blend->GetOutput()->GetPointData()->HasArray("Height"));
+  EXPECT_FALSE(blend->GetOutput()->GetPointData()->GetScalars());
+}
+
 vtkDataArray* normalsOf(vtkHybridTreeAlgorithm* filter)
 {
   filter->Update();
