@@ -10,6 +10,10 @@ namespace
 
 using Place = PatchBricks::Place;
 
+// Samples that decide between the two possibilities of a part of the border. All but those beside
+// the line agree, if the line is that of the field at all.
+constexpr std::size_t kVotes = 64;
+
 /// Walks along the edges of the border from corner to corner.
 class SignWalker
 {
@@ -31,7 +35,7 @@ public:
       });
   }
 
-  std::vector<Index3> run()
+  std::vector<Index3> run(const Progress& progress)
   {
     for (std::size_t b = 0; b < bricks_.all().size(); ++b)
     {
@@ -44,6 +48,11 @@ public:
           this->walkFrom({ &bricks_.all()[b], n % kBrickSide, n / kBrickSide % kBrickSide, z });
         }
       }
+    }
+    this->askVoters(progress);
+    for (const std::vector<Place>& component : components_)
+    {
+      this->decide(component);
     }
     return std::move(contradictions_);
   }
@@ -72,29 +81,63 @@ private:
   {
     seen_[this->number(place)][place.z] |= bit(place);
     told_[this->number(place)][place.z] |= side ? bit(place) : 0;
-    component_.push_back(place);
+    components_.back().push_back(place);
   }
 
+  /// Tells the sides as they are if the start is outside.
   void walkFrom(const Place& start)
   {
-    component_.clear();
-    this->visit(start, PatchBrick::has(start.brick->inside, start.x, start.y, start.z));
-    for (std::size_t k = 0; k < component_.size(); ++k)
+    components_.emplace_back();
+    this->visit(start, false);
+    for (std::size_t k = 0; k < components_.back().size(); ++k)
     {
-      const Place at = component_[k];
+      const Place at = components_.back()[k];
       for (unsigned axis = 0; axis < 3; ++axis)
       {
         this->step(at, axis, 1);
         this->step(at, axis, -1);
       }
     }
-    std::size_t agree = 0;
-    for (const Place& place : component_)
+  }
+
+  /// Places of a component that are asked, from the start on evenly spread.
+  template <class Visit>
+  static void forEachVoter(const std::vector<Place>& component, Visit&& visit)
+  {
+    const std::size_t votes = std::min(component.size(), kVotes);
+    for (std::size_t k = 0; k < votes; ++k)
     {
-      agree += PatchBrick::has(place.brick->inside, place.x, place.y, place.z) == this->told(place);
+      visit(component[k * component.size() / votes]);
     }
-    const bool turn = 2 * agree < component_.size();
-    for (const Place& place : component_)
+  }
+
+  void askVoters(const Progress& progress)
+  {
+    std::vector<BrickBits> voters(bricks_.all().size());
+    for (const std::vector<Place>& component : components_)
+    {
+      SignWalker::forEachVoter(
+        component, [&](const Place& place) { voters[this->number(place)][place.z] |= bit(place); });
+    }
+    bricks_.ask(voters, true, progress);
+  }
+
+  /// By most of the votes; if they are equal, by that of the start.
+  void decide(const std::vector<Place>& component)
+  {
+    const auto agrees = [&](const Place& place) {
+      return PatchBrick::has(place.brick->inside, place.x, place.y, place.z) == this->told(place);
+    };
+    std::size_t agree = 0;
+    std::size_t votes = 0;
+    SignWalker::forEachVoter(component,
+      [&](const Place& place)
+      {
+        agree += agrees(place);
+        ++votes;
+      });
+    const bool turn = 2 * agree < votes || (2 * agree == votes && !agrees(component.front()));
+    for (const Place& place : component)
     {
       std::uint64_t& word = place.brick->inside[place.z];
       word = this->told(place) != turn ? word | bit(place) : word & ~bit(place);
@@ -132,7 +175,7 @@ private:
   std::vector<BrickBits> seen_;
   std::vector<BrickBits> told_;
   std::vector<std::array<BrickBits, 3>> odd_; ///< [axis]: edges with an odd number of crossings
-  std::vector<Place> component_;
+  std::vector<std::vector<Place>> components_;
   std::vector<Index3> contradictions_;
 };
 
@@ -156,9 +199,10 @@ const std::vector<std::int32_t>* BorderCrossings::find(const LatticeEdge& edge) 
   return found == vertices_.end() ? nullptr : &found->second;
 }
 
-std::vector<Index3> alignBorderSigns(PatchBricks& bricks, const BorderCrossings& crossings)
+std::vector<Index3> alignBorderSigns(
+  PatchBricks& bricks, const BorderCrossings& crossings, const Progress& progress)
 {
-  return SignWalker(bricks, crossings).run();
+  return SignWalker(bricks, crossings).run(progress);
 }
 
 } // namespace hybridtree

@@ -51,8 +51,11 @@ private:
 
 /// Makes the sides of the corners on the border of the marked cells those that the crossings tell:
 /// the side changes at each of them. In every connected part of the border that leaves two
-/// possibilities, of which the one is taken that agrees with more of the samples.
+/// possibilities, of which the one is taken that agrees with more samples of the field, at some
+/// corners of that part.
 /// \return lattice points where the crossings contradict each other; empty for a closed mesh.
-std::vector<Index3> alignBorderSigns(PatchBricks& bricks, const BorderCrossings& crossings);
+/// \throws Cancelled.
+std::vector<Index3> alignBorderSigns(
+  PatchBricks& bricks, const BorderCrossings& crossings, const Progress& progress);
 
 } // namespace hybridtree

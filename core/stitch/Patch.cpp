@@ -67,11 +67,12 @@ public:
 
   Patch run()
   {
-    this->noteMisfits(alignBorderSigns(bricks_, crossings_));
+    this->noteMisfits(alignBorderSigns(bricks_, crossings_, progress_));
     for (PatchBrick& brick : bricks_.all())
     {
       bricks_.findCrossed(brick);
     }
+    bricks_.askAtCrossed(progress_);
     PatchFaces(bricks_).decide(lattice_, progress_);
     makePatchVertices(bricks_, lattice_, border_.vertexCount, patch_, progress_);
     this->makeTriangles();

@@ -77,20 +77,38 @@ void PatchBrick::countVertices()
 
 PatchBricks::PatchBricks(
   const FieldSource& field, const CellSet& cells, const Lattice& lattice, const Progress& progress)
+  : field_(field), lattice_(lattice)
 {
   this->addBricks(cells);
+  std::vector<BrickBits> within;
   for (PatchBrick& brick : bricks_)
   {
     this->findBits(brick);
+    within.push_back(brick.points);
+    for (int z = 0; z < kBrickSide; ++z)
+    {
+      within.back()[z] &= ~brick.border[z];
+    }
   }
   this->findRuns();
+  this->forEachRun(progress,
+    [&](const Run& run)
+    {
+      this->narrow(run);
+      this->ask(run, within, true);
+    });
+}
+
+template <class Body>
+void PatchBricks::forEachRun(const Progress& progress, Body&& body)
+{
   parallelFor(runs_.size(), 1,
     [&](std::size_t begin, std::size_t end)
     {
       progress.check();
       for (std::size_t k = begin; k < end; ++k)
       {
-        this->sample(runs_[k], field, lattice);
+        body(runs_[k]);
       }
     });
 }
@@ -234,7 +252,34 @@ void PatchBricks::findRuns()
   }
 }
 
-void PatchBricks::sample(const Run& run, const FieldSource& field, const Lattice& lattice)
+/// Finds the part of the field that reaches a run.
+void PatchBricks::narrow(const Run& run)
+{
+  Box3 box;
+  for (std::size_t k = run.begin; k < run.end; ++k)
+  {
+    PatchBrick& brick = bricks_[k];
+    if (brick.points != BrickBits{})
+    {
+      brick.values.assign(kBrickPoints, static_cast<float>(-kThreshold));
+      box.extend(lattice_.point(firstPoint(brick, 0)));
+      box.extend(lattice_.point(firstPoint(brick, kBrickSide)));
+    }
+  }
+  const FieldSourcePtr source = box.isEmpty() ? nullptr : field_.restrictedTo(box);
+  for (std::size_t k = run.begin; k < run.end; ++k)
+  {
+    bricks_[k].source = bricks_[k].values.empty() ? nullptr : source;
+  }
+}
+
+void PatchBricks::ask(
+  const std::vector<BrickBits>& points, bool tellSides, const Progress& progress)
+{
+  this->forEachRun(progress, [&](const Run& run) { this->ask(run, points, tellSides); });
+}
+
+void PatchBricks::ask(const Run& run, const std::vector<BrickBits>& points, bool tellSides)
 {
   struct Chosen
   {
@@ -242,31 +287,24 @@ void PatchBricks::sample(const Run& run, const FieldSource& field, const Lattice
     int point;
   };
   std::vector<Chosen> chosen;
-  Box3 box;
   for (std::size_t k = run.begin; k < run.end; ++k)
   {
     PatchBrick& brick = bricks_[k];
-    const std::size_t before = chosen.size();
     for (int z = 0; z < kBrickSide; ++z)
     {
-      for (std::uint64_t word = brick.points[z]; word != 0; word &= word - 1)
+      std::uint64_t word = points[k][z] & brick.points[z] & ~brick.known[z];
+      brick.known[z] |= word;
+      for (; word != 0; word &= word - 1)
       {
         chosen.push_back({ &brick, kBrickSide * kBrickSide * z + CellSet::lowestBit(word) });
       }
     }
-    if (chosen.size() > before)
-    {
-      brick.values.assign(kBrickPoints, static_cast<float>(-kThreshold));
-      box.extend(lattice.point(firstPoint(brick, 0)));
-      box.extend(lattice.point(firstPoint(brick, kBrickSide)));
-    }
   }
-  const FieldSourcePtr source = chosen.empty() ? nullptr : field.restrictedTo(box);
-  if (!source)
+  if (chosen.empty() || !chosen.front().brick->source)
   {
     return;
   }
-  ScratchVectors points(chosen.size());
+  ScratchVectors places(chosen.size());
   ScratchArray values(chosen.size());
   for (std::size_t k = 0; k < chosen.size(); ++k)
   {
@@ -275,17 +313,41 @@ void PatchBricks::sample(const Run& run, const FieldSource& field, const Lattice
     at[0] += n % kBrickSide;
     at[1] += n / kBrickSide % kBrickSide;
     at[2] += n / (kBrickSide * kBrickSide);
-    points.batch().set(k, lattice.point(at));
+    places.batch().set(k, lattice_.point(at));
   }
-  source->field(points.points(), values.data());
+  chosen.front().brick->source->field(places.points(), values.data());
   for (std::size_t k = 0; k < chosen.size(); ++k)
   {
     const double value = values[k] - kThreshold;
     const auto [brick, n] = chosen[k];
-    brick->source = source;
     brick->values[n] = static_cast<float>(value);
-    brick->inside[n / 64] |= std::uint64_t(hybridtree::isInside(value)) << (n % 64);
+    if (tellSides)
+    {
+      brick->inside[n / 64] |= std::uint64_t(hybridtree::isInside(value)) << (n % 64);
+    }
   }
+}
+
+void PatchBricks::askAtCrossed(const Progress& progress)
+{
+  std::vector<BrickBits> ends(bricks_.size());
+  for (std::size_t k = 0; k < bricks_.size(); ++k)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      PatchBrick::forEachCell(bricks_[k].crossed[axis],
+        [&](std::array<int, 3> at)
+        {
+          for (int end = 0; end < 2; ++end, ++at[axis])
+          {
+            const Place place = this->locate(bricks_[k], at[0], at[1], at[2]);
+            ends[place.brick - bricks_.data()][place.z] |= std::uint64_t(1)
+              << (kBrickSide * place.y + place.x);
+          }
+        });
+    }
+  }
+  this->ask(ends, false, progress);
 }
 
 PatchBricks::Place PatchBricks::locate(const Index3& index)

@@ -25,7 +25,8 @@ struct PatchBrick
   BrickBits mixed{};                  ///< marked cells with corners on both sides
   std::array<std::int32_t, 27>
     near{};                  ///< number of the brick at offset (n % 3, n / 3 % 3, n / 9) - 1
-  std::vector<float> values; ///< f - T at the points, where it was sampled
+  BrickBits known{};         ///< points at which the field was asked
+  std::vector<float> values; ///< f - T at these
   FieldSourcePtr source;     ///< of its run: valid in the closed box of the brick's cells
   std::array<std::array<std::uint16_t, kBrickSide>, 3> rank{};
   std::int32_t firstVertex = 0;
@@ -65,13 +66,23 @@ struct PatchBrick
   void countVertices();
 };
 
-/// All bricks with corners of marked cells, sorted, and the field at these corners.
+/// All bricks with corners of marked cells, sorted, and the field at corners that were asked for.
+///
+/// More than half of the corners are on the border of a thin layer of cells. The sides of these are
+/// told by the line from outside (BorderSigns.h), and few have a vertex beside them.
 class PatchBricks
 {
 public:
-  /// Samples the field, run by run in parallel. field must live as long as this.
+  /// Asks the field at all points that are not on the border, run by run in parallel. field and
+  /// lattice must live as long as this.
   PatchBricks(const FieldSource& field, const CellSet& cells, const Lattice& lattice,
     const Progress& progress);
+
+  /// Asks the field at points of each brick, where it was not asked yet. \param tellSides whether
+  /// these are on the side that it says.
+  void ask(const std::vector<BrickBits>& points, bool tellSides, const Progress& progress);
+  /// Where vertices come to be, once findCrossed() has told. The sides stay.
+  void askAtCrossed(const Progress& progress);
 
   std::vector<PatchBrick>& all() { return bricks_; }
   const std::vector<PatchBrick>& all() const { return bricks_; }
@@ -119,8 +130,13 @@ private:
   void findBits(PatchBrick& brick) const;
   std::uint64_t sides(const PatchBrick& brick, int dx, int dy, int z) const;
   void findRuns();
-  void sample(const Run& run, const FieldSource& field, const Lattice& lattice);
+  template <class Body>
+  void forEachRun(const Progress& progress, Body&& body);
+  void narrow(const Run& run);
+  void ask(const Run& run, const std::vector<BrickBits>& points, bool tellSides);
 
+  const FieldSource& field_;
+  const Lattice& lattice_;
   std::vector<PatchBrick> bricks_;
   std::vector<Run> runs_;
   std::unordered_map<Index3, std::int32_t, Index3Hash> index_;
