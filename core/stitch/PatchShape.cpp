@@ -315,34 +315,51 @@ private:
   }
 
   /// By how much the shapes around the start of h get better; 0 when it may not go, or when that is
-  /// no more than `least`.
+  /// no more than `least`. What is quick to tell comes first: most may not go.
   double gainOfCollapse(Index h, double least) const
   {
     const Index from = links_.from(h);
     const Index to = links_.to(h);
-    if (!this->isOwn(from) || links_.isLocked(from) || this->length(h) > 0.7 * cellSize_)
+    if (!this->isOwn(from) || links_.isLocked(from) || links_.isLocked(to) ||
+      this->length(h) > 0.7 * cellSize_)
     {
       return 0.0;
     }
     const Vec3& target = this->point(to);
+    const double mostOff = (this->isCreasePoint(from) ? kMostOffCrease : kMostOff) * cellSize_;
+    if (!(std::abs(mesh_.normals[from].dot(target - this->point(from))) <= 2.0 * mostOff))
+    {
+      return 0.0;
+    }
     double before = 0.0;
-    double after = 0.0;
-    double longest = 0.0;
-    bool allowed = true;
-    links_.forEachLeaving(from,
-      [&](Index leaving)
-      {
-        longest = std::max(longest, this->length(leaving));
-        before += badness(this->shape(leaving / 3));
-      });
+    links_.forEachLeaving(
+      from, [&](Index leaving) { before += badness(this->shape(leaving / 3)); });
     if (before <= least)
     {
       return 0.0;
     }
-    const Vec3& up = mesh_.normals[from];
-    const double mostOff = (this->isCreasePoint(from) ? kMostOffCrease : kMostOff) * cellSize_;
-    allowed = std::abs(up.dot(target - this->point(from))) <= 2.0 * mostOff;
-    const double limit = std::max(kLongestSide * cellSize_, longest);
+    double after = 0.0;
+    bool allowed = true;
+    links_.forEachLeaving(from,
+      [&](Index leaving)
+      {
+        const Index b = links_.to(leaving);
+        const Index c = links_.opposite(leaving);
+        if (allowed && b != to && c != to)
+        {
+          after += badness(shapeOf(target, this->point(b), this->point(c)));
+          allowed = !(before - after <= least);
+        }
+      });
+    return allowed && this->staysOnSurface(from, to, mostOff) ? before - after : 0.0;
+  }
+
+  /// Whether the triangles around a point hardly move, nor turn, nor get too long, when it goes to
+  /// another one of theirs.
+  bool staysOnSurface(Index from, Index to, double mostOff) const
+  {
+    const Vec3& target = this->point(to);
+    bool allowed = true;
     links_.forEachLeaving(from,
       [&](Index leaving)
       {
@@ -360,24 +377,30 @@ private:
         if (tells && std::abs(old.dot(target - this->point(b))) > mostOff * size)
         {
           allowed = false;
+          return;
         }
         if (b == to || c == to)
         {
           return;
         }
-        after += badness(shapeOf(target, this->point(b), this->point(c)));
-        if (before - after <= least)
-        {
-          allowed = false;
-          return;
-        }
         const Vec3 turned = normalOf(target, this->point(b), this->point(c));
         const Vec3 reference = solid ? old : this->meanNormal(b, c, to);
         const double cosine = solid ? kLargestTurn : kLargestTilt;
-        allowed = allowed && turned.dot(reference) > cosine * turned.norm() * reference.norm() &&
-          (this->point(b) - target).norm() <= limit;
+        allowed = turned.dot(reference) > cosine * turned.norm() * reference.norm() &&
+          this->isShort((this->point(b) - target).norm(), from);
       });
-    return allowed ? before - after : 0.0;
+    return allowed;
+  }
+
+  /// Against the sides at a point.
+  bool isShort(double length, Index point) const
+  {
+    bool is = length <= kLongestSide * cellSize_;
+    if (!is)
+    {
+      links_.forEachLeaving(point, [&](Index h) { is = is || length <= this->length(h); });
+    }
+    return is;
   }
 
   /// A triangle, of half this size, whose normal says where a crease is, sliver or not.
@@ -406,6 +429,10 @@ private:
     const Vec3& d = this->point(id);
     const double shapes[2] = { this->shape(h / 3), this->shape(twin / 3) };
     const double before = badness(shapes[0]) + badness(shapes[1]);
+    if (before <= least)
+    {
+      return 0.0;
+    }
     const double after = badness(shapeOf(d, b, c)) + badness(shapeOf(c, a, d));
     if (before - after <= least)
     {
