@@ -1,10 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/mesh/MeshLinks.h"
 
+#include "core/base/Parallel.h"
 #include "core/mesh/HalfEdges.h"
 
 namespace hybridtree
 {
+namespace
+{
+
+constexpr std::size_t kGrain = 4096;
+
+} // namespace
 
 MeshLinks::MeshLinks(const std::vector<Triangle>& triangles, std::size_t points)
   : triangles_(triangles)
@@ -12,13 +19,16 @@ MeshLinks::MeshLinks(const std::vector<Triangle>& triangles, std::size_t points)
   , leaving_(points, kNone)
   , locked_(points, false)
 {
-  for (Index h = 0; h < static_cast<Index>(twins_.size()); ++h)
-  {
-    // Neighbours that contradict each other are none.
-    const bool twins = twins_[h] >= 0 && this->from(h) == this->to(twins_[h]);
-    twins_[h] = twins ? twins_[h] : kNone;
-    leaving_[this->from(h)] = h;
-  }
+  parallelFor(twins_.size(), kGrain,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (auto h = static_cast<Index>(begin); h < static_cast<Index>(end); ++h)
+      {
+        // Neighbours that contradict each other are none. Each reads what neither changes.
+        const Index twin = twins_[h];
+        twins_[h] = twin >= 0 && this->from(h) == this->to(twin) ? twin : kNone;
+      }
+    });
   this->lockPoints();
 }
 
@@ -27,27 +37,30 @@ void MeshLinks::lockPoints()
   std::vector<Index> corners(locked_.size(), 0);
   for (Index h = 0; h < static_cast<Index>(twins_.size()); ++h)
   {
-    ++corners[this->from(h)];
+    const Index p = this->from(h);
+    leaving_[p] = h;
+    ++corners[p];
     if (twins_[h] == kNone)
     {
-      locked_[this->from(h)] = true;
+      locked_[p] = true;
       locked_[this->to(h)] = true;
     }
   }
-  for (std::size_t point = 0; point < locked_.size(); ++point)
-  {
-    const auto p = static_cast<Index>(point);
-    if (leaving_[p] == kNone)
+  parallelFor(locked_.size(), kGrain,
+    [&](std::size_t begin, std::size_t end)
     {
-      locked_[p] = true;
-    }
-    else if (!locked_[p])
-    {
-      Index around = 0;
-      this->forEachLeaving(p, [&](Index) { ++around; });
-      locked_[p] = around != corners[p];
-    }
-  }
+      for (auto p = static_cast<Index>(begin); p < static_cast<Index>(end); ++p)
+      {
+        locked_[p] = locked_[p] || leaving_[p] == kNone || this->valence(p) != corners[p];
+      }
+    });
+}
+
+MeshLinks::Index MeshLinks::valence(Index point) const
+{
+  Index around = 0;
+  this->forEachLeaving(point, [&](Index) { ++around; });
+  return around;
 }
 
 void MeshLinks::join(Index a, Index b)
@@ -148,18 +161,14 @@ bool MeshLinks::canCollapse(Index h) const
   }
   // Points joined to both ends: only the two of the edge's triangles.
   int common = 0;
-  int aroundA = 0;
-  int aroundB = 0;
   this->forEachLeaving(a,
     [&](Index leaving)
     {
-      ++aroundA;
       const Index point = this->to(leaving);
       this->forEachLeaving(b, [&](Index h2) { common += this->to(h2) == point; });
     });
-  this->forEachLeaving(b, [&](Index) { ++aroundB; });
   // With three neighbours each they are on a tetrahedron.
-  return common == 2 && aroundA + aroundB > 6;
+  return common == 2 && this->valence(a) + this->valence(b) > 6;
 }
 
 void MeshLinks::collapse(Index h)

@@ -33,7 +33,7 @@ public:
   Index twin(Index h) const { return twins_[h]; }
 
   /// On a border, or where the triangles form no single fan.
-  bool isLocked(Index point) const { return locked_[point]; }
+  bool isLocked(Index point) const { return locked_[point] != 0; }
 
   /// Calls visit(h) for the half-edges that leave a point. \pre it is not locked.
   template <class Visit>
@@ -66,13 +66,14 @@ public:
 
 private:
   void lockPoints();
+  Index valence(Index point) const;
   void join(Index a, Index b);
   void splitTriangle(Index h, Index middle);
 
   std::vector<Triangle> triangles_;
   std::vector<Index> twins_;
   std::vector<Index> leaving_; ///< one half-edge from each point
-  std::vector<bool> locked_;
+  std::vector<char> locked_;   ///< one byte each, for threads
 };
 
 } // namespace hybridtree

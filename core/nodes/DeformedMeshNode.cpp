@@ -2,6 +2,7 @@
 #include "core/nodes/DeformedMeshNode.h"
 
 #include "core/base/Scratch.h"
+#include "core/nodes/WarpImage.h"
 #include "core/nodes/WarpMesh.h"
 #include "core/polygonize/Polygonize.h"
 
@@ -114,13 +115,20 @@ TriangleMesh DeformedMesh::makeMesh(const Progress& progress) const
     options.cellSize = edgeLength;
     const NegatedField negated(*child_);
     const TriangleMesh source = polygonize(negated, box, options, before);
-    return warpedMesh(source, *setting_.warp, edgeLength, *child_, after);
+    return this->imageOfMesh(source, edgeLength, after);
   }
   edgeLength = edgeLength > 0.0 ? edgeLength : child_->defaultEdgeLength();
   const MeshPtr source = child_->mesh(edgeLength, before);
-  TriangleMesh mesh = warpedMesh(*source, *setting_.warp, edgeLength, *child_, after);
+  TriangleMesh mesh = this->imageOfMesh(*source, edgeLength, after);
   alignNormals(mesh);
   return mesh;
+}
+
+TriangleMesh DeformedMesh::imageOfMesh(
+  const TriangleMesh& mesh, double edgeLength, const Progress& progress) const
+{
+  return warpedMesh(mesh, imageOf(*setting_.warp, mesh.points, progress), *setting_.warp,
+    edgeLength, *child_, progress);
 }
 
 // --- the node

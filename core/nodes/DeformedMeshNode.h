@@ -43,6 +43,8 @@ public:
 
 private:
   TriangleMesh makeMesh(const Progress& progress) const;
+  TriangleMesh imageOfMesh(
+    const TriangleMesh& mesh, double edgeLength, const Progress& progress) const;
 
   NodePtr child_;
   FreeFormSetting setting_;

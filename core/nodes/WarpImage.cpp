@@ -5,6 +5,7 @@
 #include "core/base/Parallel.h"
 #include "core/base/Scratch.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numeric>
@@ -18,16 +19,15 @@ namespace
 constexpr std::size_t kGrain = 512;
 constexpr double kMostTriangles = 2e7; // some 3 GiB
 
-// Area of the image of some triangles: that of each times |cof(J) n| at its centroid. Their corners
-// would not do: a twist of many turns takes them anywhere.
-double imageArea(
-  const TriangleMesh& mesh, const SpaceWarp& warp, std::size_t begin, std::size_t end)
+// Twice the areas of the images of triangles first, first + stride, ...: that of each times |cof(J)
+// n| at its centroid. Their corners would not do: a twist of many turns takes them anywhere.
+void imageAreas(const TriangleMesh& mesh, const SpaceWarp& warp, std::size_t first,
+  std::size_t stride, std::size_t count, double* area)
 {
-  const std::size_t count = end - begin;
   ScratchVectors centroids(count);
   for (std::size_t k = 0; k < count; ++k)
   {
-    const Triangle& t = mesh.triangles[begin + k];
+    const Triangle& t = mesh.triangles[first + k * stride];
     centroids.batch().set(k, (mesh.points[t[0]] + mesh.points[t[1]] + mesh.points[t[2]]) / 3.0);
   }
   std::array<ScratchVectors, 3> columns{ ScratchVectors(count), ScratchVectors(count),
@@ -40,28 +40,70 @@ double imageArea(
     }
     warp.pullBack(centroids.points(), columns[axis].batch());
   }
-  double area = 0.0;
   for (std::size_t k = 0; k < count; ++k)
   {
     Mat3 inverse;
     inverse << columns[0].batch()[k], columns[1].batch()[k], columns[2].batch()[k];
     const double image =
-      (inverse * areaNormal(mesh, begin + k)).norm() / std::abs(inverse.determinant());
-    area += std::isfinite(image) ? image : 0.0; // where the map is singular
+      (inverse * areaNormal(mesh, first + k * stride)).norm() / std::abs(inverse.determinant());
+    area[k] = std::isfinite(image) ? image : 0.0; // where the map is singular
   }
-  return area;
 }
 
-double imageArea(const TriangleMesh& mesh, const SpaceWarp& warp, const Progress& progress)
+// By how much a warp makes triangles larger, at most, as far as some of them tell.
+double largestGrowth(const TriangleMesh& mesh, const SpaceWarp& warp)
+{
+  constexpr std::size_t kSamples = 4096;
+  const std::size_t stride = mesh.triangles.size() / kSamples + 1;
+  const std::size_t count = (mesh.triangles.size() + stride - 1) / stride;
+  ScratchArray area(count);
+  imageAreas(mesh, warp, 0, stride, count, area.data());
+  double largest = 0.0;
+  for (std::size_t k = 0; k < count; ++k)
+  {
+    const double before = areaNormal(mesh, k * stride).norm();
+    largest = before > 0.0 ? std::max(largest, area[k] / before) : largest;
+  }
+  return largest;
+}
+
+// Sum of what is told of triangles begin .. end - 1.
+template <typename Area>
+double sumOfAreas(const TriangleMesh& mesh, const Progress& progress, const Area& areaOf)
 {
   std::vector<double> parts((mesh.triangles.size() + kGrain - 1) / kGrain);
   parallelFor(mesh.triangles.size(), kGrain,
     [&](std::size_t begin, std::size_t end)
     {
       progress.check();
-      parts[begin / kGrain] = imageArea(mesh, warp, begin, end);
+      parts[begin / kGrain] = areaOf(begin, end);
     });
   return std::accumulate(parts.begin(), parts.end(), 0.0);
+}
+
+double imageArea(const TriangleMesh& mesh, const SpaceWarp& warp, const Progress& progress)
+{
+  return sumOfAreas(mesh, progress,
+    [&](std::size_t begin, std::size_t end)
+    {
+      ScratchArray area(end - begin);
+      imageAreas(mesh, warp, begin, 1, end - begin, area.data());
+      return std::accumulate(area.data(), area.data() + area.size(), 0.0);
+    });
+}
+
+double ownArea(const TriangleMesh& mesh, const Progress& progress)
+{
+  return sumOfAreas(mesh, progress,
+    [&](std::size_t begin, std::size_t end)
+    {
+      double sum = 0.0;
+      for (std::size_t t = begin; t < end; ++t)
+      {
+        sum += areaNormal(mesh, t).norm();
+      }
+      return sum;
+    });
 }
 
 } // namespace
@@ -84,6 +126,12 @@ void mapForward(
         points[begin + k] = batch.batch()[k - from];
       }
     });
+}
+
+std::vector<Vec3> imageOf(const SpaceWarp& warp, std::vector<Vec3> points, const Progress& progress)
+{
+  mapForward(warp, points, 0, progress);
+  return points;
 }
 
 void mapNormals(const SpaceWarp& warp, const std::vector<Vec3>& points, std::vector<Vec3>& normals)
@@ -109,9 +157,13 @@ void mapNormals(const SpaceWarp& warp, const std::vector<Vec3>& points, std::vec
 void requireCountableImage(
   const TriangleMesh& mesh, const SpaceWarp& warp, double edgeLength, const Progress& progress)
 {
-  // Of equal-sided triangles.
-  const double estimate =
-    imageArea(mesh, warp, progress) / (std::sqrt(3.0) / 4.0 * edgeLength * edgeLength);
+  constexpr double kUnseen = 8.0; // between the triangles that are looked at
+  const double one = std::sqrt(3.0) / 4.0 * edgeLength * edgeLength; // equal-sided
+  if (kUnseen * largestGrowth(mesh, warp) * ownArea(mesh, progress) / one <= kMostTriangles)
+  {
+    return;
+  }
+  const double estimate = imageArea(mesh, warp, progress) / one;
   if (!(estimate <= kMostTriangles))
   {
     std::ostringstream text;

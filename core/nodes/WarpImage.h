@@ -15,6 +15,10 @@ namespace hybridtree
 void mapForward(
   const SpaceWarp& warp, std::vector<Vec3>& points, std::size_t begin, const Progress& progress);
 
+/// The images of points.
+std::vector<Vec3> imageOf(
+  const SpaceWarp& warp, std::vector<Vec3> points, const Progress& progress);
+
 /// Replaces the normals at points by those of the image, J^-T n made unit.
 void mapNormals(const SpaceWarp& warp, const std::vector<Vec3>& points, std::vector<Vec3>& normals);
 

@@ -20,9 +20,11 @@ namespace hybridtree
 /// when the warp mirrors.
 ///
 /// \param mesh of `node`.
+/// \param imagePoints of its points (imageOf()).
 /// \throws TooLarge when the area of the image foretells more than 2e7 triangles; Cancelled.
-TriangleMesh warpedMesh(const TriangleMesh& mesh, const SpaceWarp& warp, double edgeLength,
-  const Node& node, const Progress& progress = Progress::none());
+TriangleMesh warpedMesh(const TriangleMesh& mesh, std::vector<Vec3> imagePoints,
+  const SpaceWarp& warp, double edgeLength, const Node& node,
+  const Progress& progress = Progress::none());
 
 /// Area-weighted unit normals of the points, from the triangles around them.
 std::vector<Vec3> pointNormals(const TriangleMesh& mesh);

@@ -4,11 +4,13 @@
 #include "core/base/Parallel.h"
 #include "core/base/Scratch.h"
 #include "core/nodes/LatticeMesh.h"
+#include "core/nodes/WarpImage.h"
 #include "core/nodes/WarpMesh.h"
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <utility>
 
 namespace hybridtree
 {
@@ -153,26 +155,25 @@ FieldSourcePtr restrictedWarp(const FieldSource& child, const SpaceWarp& warp, c
   return restricted ? std::make_shared<const WarpedField>(std::move(restricted), warp) : nullptr;
 }
 
-// Whether w^-1(w(q)) = q for all points of the mesh, to within a share of the edge length.
-bool isOneToOne(
-  const SpaceWarp& warp, const TriangleMesh& mesh, double edgeLength, const Progress& progress)
+// Whether w^-1(w(q)) = q for all points, to within a share of the edge length.
+bool isOneToOne(const SpaceWarp& warp, const std::vector<Vec3>& points,
+  const std::vector<Vec3>& image, double edgeLength, const Progress& progress)
 {
   constexpr std::size_t kGrain = 512;
   std::atomic<bool> good{ true };
-  parallelFor(mesh.points.size(), kGrain,
+  parallelFor(points.size(), kGrain,
     [&](std::size_t begin, std::size_t end)
     {
       progress.check();
-      ScratchVectors images(end - begin);
+      ScratchVectors back(end - begin);
       for (std::size_t k = begin; k < end; ++k)
       {
-        images.batch().set(k - begin, mesh.points[k]);
+        back.batch().set(k - begin, image[k]);
       }
-      warp.forward(images.points(), images.batch());
-      warp.inverse(images.points(), images.batch());
+      warp.inverse(back.points(), back.batch());
       for (std::size_t k = begin; k < end; ++k)
       {
-        if (!((images.batch()[k - begin] - mesh.points[k]).norm() <= 1e-3 * edgeLength))
+        if (!((back.batch()[k - begin] - points[k]).norm() <= 1e-3 * edgeLength))
         {
           good = false;
         }
@@ -249,11 +250,13 @@ void WarpedNode::sourceLeaf(PointBatch points, std::int32_t* leaf) const
 TriangleMesh WarpedNode::makeMesh(double edgeLength, const Progress& progress) const
 {
   const MeshPtr source = child_->mesh(edgeLength, ProgressPart(progress, 0.0, 0.5));
-  if (!isOneToOne(*warp_, *source, edgeLength, progress))
+  std::vector<Vec3> image = imageOf(*warp_, source->points, progress);
+  if (!isOneToOne(*warp_, source->points, image, edgeLength, progress))
   {
     return latticeMesh(*this, edgeLength, ProgressPart(progress, 0.5, 1.0));
   }
-  return warpedMesh(*source, *warp_, edgeLength, *child_, ProgressPart(progress, 0.5, 1.0));
+  return warpedMesh(
+    *source, std::move(image), *warp_, edgeLength, *child_, ProgressPart(progress, 0.5, 1.0));
 }
 
 } // namespace hybridtree

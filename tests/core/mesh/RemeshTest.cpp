@@ -2,15 +2,19 @@
 #include "core/mesh/Remesh.h"
 
 #include "core/base/Error.h"
+#include "core/base/Parallel.h"
 #include "core/mesh/MeshChecks.h"
 #include "core/polygonize/Polygonize.h"
 #include "tests/support/FunctionField.h"
+#include "tests/support/TriangleAngles.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <utility>
+#include <vector>
 
 namespace hybridtree
 {
@@ -43,24 +47,6 @@ double longestEdge(const TriangleMesh& mesh)
   return longest;
 }
 
-/// Share of triangles with an angle below `degrees`.
-double shareOfBad(const TriangleMesh& mesh, double degrees)
-{
-  std::size_t bad = 0;
-  for (const Triangle& c : mesh.triangles)
-  {
-    double smallest = 180.0;
-    for (int k = 0; k < 3; ++k)
-    {
-      const Vec3 u = mesh.points[c[(k + 1) % 3]] - mesh.points[c[k]];
-      const Vec3 v = mesh.points[c[(k + 2) % 3]] - mesh.points[c[k]];
-      smallest = std::min(smallest, std::atan2(u.cross(v).norm(), u.dot(v)) * 57.29577951308232);
-    }
-    bad += smallest < degrees;
-  }
-  return static_cast<double>(bad) / static_cast<double>(mesh.triangles.size());
-}
-
 /// A random stretch, shear and twist, of the points and, by its inverse transpose, the normals.
 struct RandomWarp
 {
@@ -90,6 +76,17 @@ struct RandomWarp
   double bulge;
 };
 
+/// With the normals as they were.
+TriangleMesh warped(TriangleMesh mesh, std::uint64_t seed)
+{
+  const RandomWarp warp(seed);
+  for (Vec3& point : mesh.points)
+  {
+    point = warp(point);
+  }
+  return mesh;
+}
+
 RemeshOptions optionsFor(double edgeLength)
 {
   RemeshOptions options;
@@ -102,14 +99,9 @@ TEST(Remesh, StretchedMeshesStayManifoldAndGetBetter)
   const TriangleMesh original = torusMesh(0.12);
   for (std::uint64_t seed = 1; seed <= 25; ++seed)
   {
-    TriangleMesh mesh = original;
-    const RandomWarp warp(seed);
-    for (Vec3& point : mesh.points)
-    {
-      point = warp(point);
-    }
+    TriangleMesh mesh = warped(original, seed);
     const double volume = signedVolume(mesh);
-    const double badBefore = shareOfBad(mesh, 20.0);
+    const double badBefore = test::shareBelow(mesh, 20.0);
     const double length = 0.15;
     remeshStretched(mesh, optionsFor(length));
     const MeshReport report = checkMesh(mesh);
@@ -120,7 +112,45 @@ TEST(Remesh, StretchedMeshesStayManifoldAndGetBetter)
     EXPECT_EQ(mesh.normals.size(), mesh.points.size());
     EXPECT_LE(longestEdge(mesh), 4.0 / 3.0 * length * (1.0 + 1e-12)) << seed;
     EXPECT_NEAR(signedVolume(mesh), volume, 0.06 * volume) << seed; // some are as thin as an edge
-    EXPECT_LT(shareOfBad(mesh, 20.0), std::max(0.25 * badBefore, 0.02)) << seed;
+    EXPECT_LT(test::shareBelow(mesh, 20.0), std::max(0.25 * badBefore, 0.02)) << seed;
+  }
+}
+
+// Triangles are looked at only where something has changed: none may be forgotten.
+TEST(Remesh, NothingIsLeftToDoAtTheEnd)
+{
+  const TriangleMesh original = torusMesh(0.12);
+  for (std::uint64_t seed = 1; seed <= 25; ++seed)
+  {
+    TriangleMesh mesh = warped(original, seed);
+    RemeshOptions options = optionsFor(0.15);
+    options.maxRounds = 200;
+    remeshStretched(mesh, options);
+    const TriangleMesh once = mesh;
+    remeshStretched(mesh, options);
+    EXPECT_EQ(mesh.triangles, once.triangles) << seed;
+    EXPECT_EQ(mesh.points, once.points) << seed;
+  }
+}
+
+TEST(Remesh, ThreadsDoNotChangeTheResult)
+{
+  const TriangleMesh original = torusMesh(0.03);
+  ASSERT_GT(original.triangles.size(), 20000u); // work for several
+  std::vector<TriangleMesh> results;
+  for (const int threads : { 1, 2, 7 })
+  {
+    setThreadCount(threads);
+    TriangleMesh mesh = warped(original, 4);
+    remeshStretched(mesh, optionsFor(0.05));
+    results.push_back(std::move(mesh));
+  }
+  setThreadCount(0);
+  for (const TriangleMesh& mesh : results)
+  {
+    EXPECT_EQ(mesh.triangles, results.front().triangles);
+    EXPECT_EQ(mesh.points, results.front().points);
+    EXPECT_EQ(mesh.normals, results.front().normals);
   }
 }
 
