@@ -3,6 +3,7 @@
 
 #include "core/base/Error.h"
 #include "core/mesh/SharpShare.h"
+#include "core/mesh/SplitSharp.h"
 #include "core/mesh/TriangleMesh.h"
 #include "core/nodes/MeshLimits.h"
 #include "core/nodes/Node.h"
@@ -114,7 +115,7 @@ void vtkHybridTreeAlgorithm::SetEdgeLength(double length)
 //------------------------------------------------------------------------------
 void vtkHybridTreeAlgorithm::SetPointNormals(int when)
 {
-  when = std::clamp(when, int(NORMALS_AUTOMATIC), int(NORMALS_NEVER));
+  when = std::clamp(when, int(NORMALS_AUTOMATIC), int(NORMALS_SPLIT));
   if (when != this->PointNormals)
   {
     this->PointNormals = when;
@@ -362,8 +363,10 @@ void vtkHybridTreeAlgorithm::WriteOutput(
     const MeshPtr mesh = this->MakeMesh(*state.Node, progress);
     this->WarnOfLostShape(*mesh);
     this->WarnOfTinyOperands();
-    hybridtree::toPolyData(mesh, this->NeedsNormals(*mesh), output);
-    this->Warn(hybridtree::passArrays(arrays, leaves, *mesh, output));
+    const bool splits = this->PointNormals == NORMALS_SPLIT;
+    const MeshPtr shown = splits ? hybridtree::splitAtSharpEdges(mesh) : mesh;
+    hybridtree::toPolyData(shown, splits || this->NeedsNormals(*mesh), output);
+    this->Warn(hybridtree::passArrays(arrays, leaves, *shown, output));
   }
   hybridtree::putNames(leaves, output->GetFieldData());
   hybridtree::putArrays(arrays, leaves, output->GetFieldData());

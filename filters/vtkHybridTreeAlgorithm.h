@@ -70,7 +70,8 @@ public:
   {
     NORMALS_AUTOMATIC = 0,
     NORMALS_ALWAYS = 1,
-    NORMALS_NEVER = 2
+    NORMALS_NEVER = 2,
+    NORMALS_SPLIT = 3
   };
 
   ///@{
@@ -80,7 +81,10 @@ public:
    * shaded as the plane that it is. NORMALS_AUTOMATIC (0, default): not where more than a quarter
    * of the area is in triangles with a corner whose normal is over 40 degrees off their own, as on
    * drilled plates with their large triangles; scans, blends and fine meshes have them.
-   * NORMALS_ALWAYS (1), NORMALS_NEVER (2). Does not change the shape.
+   * NORMALS_ALWAYS (1), NORMALS_NEVER (2). NORMALS_SPLIT (3): points at edges sharper than 40
+   * degrees are doubled in the output, so that each side is shaded by itself, as Splitting of
+   * vtkPolyDataNormals does; the output is open there for filters that go by points. The tree it
+   * brings along is not, so nodes fed with it see the closed shape. Does not change the shape.
    */
   virtual void SetPointNormals(int when);
   vtkGetMacro(PointNormals, int);

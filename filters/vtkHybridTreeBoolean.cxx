@@ -35,7 +35,8 @@ vtkHybridTreeBoolean::NodePtr vtkHybridTreeBoolean::MakeNode(const Operands& ope
   std::vector<NodePtr> all = operands[0];
   all.insert(all.end(), operands[1].begin(), operands[1].end());
   return this->Nest->make(static_cast<hybridtree::BooleanOperation>(this->Operation), all,
-    static_cast<hybridtree::BooleanForm>(this->Form));
+    static_cast<hybridtree::BooleanForm>(this->Form),
+    static_cast<hybridtree::FacetMerging>(this->MergeCoplanar));
 }
 
 //------------------------------------------------------------------------------
@@ -87,4 +88,5 @@ void vtkHybridTreeBoolean::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Operation: " << this->Operation << "\n";
   os << indent << "Form: " << this->Form << "\n";
+  os << indent << "MergeCoplanar: " << this->MergeCoplanar << "\n";
 }

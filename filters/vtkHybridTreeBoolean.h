@@ -64,6 +64,23 @@ public:
   vtkGetMacro(Form, int);
   ///@}
 
+  enum MergeCoplanarType
+  {
+    MERGE_NOTHING = 0,
+    MERGE_PARTS = 1
+  };
+
+  ///@{
+  /**
+   * Which triangles at a cut are triangulated afresh as one, from their border alone. MERGE_PARTS
+   * (1, default): what this and Booleans before it have left of one triangle, so that holes drilled
+   * in turn leave no needles; arrays stay right, as they are linear there, and triangles away from
+   * the cut stay as they are. MERGE_NOTHING (0): every cut keeps the edges of those before.
+   */
+  vtkSetMacro(MergeCoplanar, int);
+  vtkGetMacro(MergeCoplanar, int);
+  ///@}
+
   /**
    * Takes all connections from B: ParaView does so before it sets them anew.
    */
@@ -83,6 +100,7 @@ protected:
 
   int Operation = UNION;
   int Form = AUTOMATIC;
+  int MergeCoplanar = MERGE_PARTS;
 
 private:
   vtkHybridTreeBoolean(const vtkHybridTreeBoolean&) = delete;

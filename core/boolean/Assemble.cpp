@@ -145,7 +145,8 @@ private:
     result_.cutPoints.reserve(result_.mesh.points.size() - at);
     for (const Crossing& c : curves_.crossings)
     {
-      result_.cutPoints.push_back({ c.mesh, c.low, c.high, c.parameter, c.other, c.position });
+      result_.cutPoints.push_back(
+        { c.mesh, c.low, c.high, c.parameter, c.other, { -1, -1 }, c.position });
       result_.mesh.points[at++] = c.position;
     }
     for (std::size_t mesh = 0; mesh < 2; ++mesh)
@@ -215,10 +216,18 @@ private:
       result_.sourceTriangle[at] = this->sourceOf(mesh, source);
       for (const std::int32_t id : c)
       {
+        if (id >= 0)
+        {
+          continue;
+        }
+        CutPoint& point = result_.cutPoints[std::size_t(pointOf(id)) - result_.firstCut];
         if (-1 - id >= crossings)
         {
-          const std::size_t point = std::size_t(pointOf(id)) - result_.firstCut;
-          result_.cutPoints[point].triangle = source;
+          point.triangle = source;
+        }
+        if (point.home[mesh] < 0)
+        {
+          point.home[mesh] = result_.sourceTriangle[at];
         }
       }
     }

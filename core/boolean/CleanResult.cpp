@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/boolean/CleanResult.h"
 
+#include "core/boolean/CompactResult.h"
 #include "core/boolean/FlatTriangles.h"
 #include "core/boolean/NearCut.h"
 
@@ -45,7 +46,7 @@ public:
       this->dropThinComponents();
     }
     this->removeFlat(nearlyCoincide);
-    this->compact();
+    compactResult(result_, becomes_);
   }
 
   void makeRoom(const std::vector<Vec3>& normals, double distance)
@@ -70,7 +71,7 @@ public:
       mesh_.points, std::move(corners), std::move(operand), std::move(facing), isCut, distance);
     nearCut.run();
     this->writeBack(part, nearCut);
-    this->compact();
+    compactResult(result_, becomes_);
   }
 
 private:
@@ -241,104 +242,6 @@ private:
     {
       becomes_[std::size_t(merge[0])] = merge[1];
     }
-  }
-
-  std::int32_t lastOf(std::int32_t point) const
-  {
-    while (becomes_[std::size_t(point)] != point)
-    {
-      point = becomes_[std::size_t(point)];
-    }
-    return point;
-  }
-
-  void compact()
-  {
-    std::size_t kept = 0;
-    std::vector<std::int32_t> place(mesh_.points.size(), -1);
-    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
-    {
-      const Triangle c = mesh_.triangles[t];
-      if (this->isGone(c))
-      {
-        continue;
-      }
-      for (const std::int32_t point : c)
-      {
-        place[std::size_t(point)] = 0;
-      }
-      mesh_.triangles[kept] = c;
-      result_.sourceOperand[kept] = result_.sourceOperand[t];
-      result_.sourceTriangle[kept++] = result_.sourceTriangle[t];
-    }
-    mesh_.triangles.resize(kept);
-    result_.sourceOperand.resize(kept);
-    result_.sourceTriangle.resize(kept);
-    this->compactPoints(place);
-    for (Triangle& c : mesh_.triangles)
-    {
-      for (std::int32_t& point : c)
-      {
-        point = place[std::size_t(point)];
-      }
-    }
-    this->compactCurves(place);
-  }
-
-  // place: -1 for a point that goes; the others get their new number.
-  void compactPoints(std::vector<std::int32_t>& place)
-  {
-    std::array<std::size_t, 3> count{};
-    const std::size_t firstOfB = result_.firstOfB;
-    const std::size_t firstCut = result_.firstCut;
-    std::size_t kept = 0;
-    for (std::size_t k = 0; k < place.size(); ++k)
-    {
-      if (place[k] < 0)
-      {
-        continue;
-      }
-      const std::size_t kind = k < firstOfB ? 0 : k < firstCut ? 1 : 2;
-      if (kind < 2)
-      {
-        result_.sourcePoint[kept] = result_.sourcePoint[k];
-      }
-      else
-      {
-        result_.cutPoints[count[2]] = result_.cutPoints[k - firstCut];
-      }
-      ++count[kind];
-      mesh_.points[kept] = mesh_.points[k];
-      place[k] = std::int32_t(kept++);
-    }
-    mesh_.points.resize(kept);
-    result_.firstOfB = count[0];
-    result_.firstCut = count[0] + count[1];
-    result_.sourcePoint.resize(result_.firstCut);
-    result_.cutPoints.resize(count[2]);
-  }
-
-  // Curves of what has gone go; steps without length too.
-  void compactCurves(const std::vector<std::int32_t>& place)
-  {
-    std::vector<std::vector<std::int32_t>> curves;
-    for (const std::vector<std::int32_t>& curve : result_.curves)
-    {
-      std::vector<std::int32_t> now;
-      for (const std::int32_t old : curve)
-      {
-        const std::int32_t point = place[std::size_t(this->lastOf(old))];
-        if (point >= 0 && (now.empty() || now.back() != point))
-        {
-          now.push_back(point);
-        }
-      }
-      if (now.size() > 1)
-      {
-        curves.push_back(std::move(now));
-      }
-    }
-    result_.curves = std::move(curves);
   }
 
   MeshBooleanResult& result_;

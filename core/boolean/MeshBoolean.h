@@ -5,6 +5,7 @@
 #include "core/boolean/MeshOperand.h"
 #include "core/mesh/TriangleMesh.h"
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -25,7 +26,8 @@ struct CutPoint
   std::int32_t low = -1, high = -1; ///< ends of the edge; -1 for a point inside of `triangle`
   double parameter = 0.0;           ///< 0 at low, 1 at high
   std::int32_t triangle = -1;       ///< of the other operand
-  Vec3 position = Vec3::Zero();     ///< where the meshes cross
+  std::array<std::int32_t, 2> home{ -1, -1 }; ///< per operand: a triangle that it lies in
+  Vec3 position = Vec3::Zero();               ///< where the meshes cross
 };
 
 struct MeshBooleanResult

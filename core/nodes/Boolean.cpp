@@ -26,6 +26,7 @@ namespace
 
 const EnumNames<BooleanOperation, 3> kOperations = { "Operation", "operation",
   { "union", "intersection", "difference" } };
+const EnumNames<FacetMerging, 2> kMergings = { "MergeCoplanar", "merging", { "none", "parts" } };
 const EnumNames<BooleanForm, 4> kForms = { "Form", "form",
   { "automatic", "minMax", "smooth", "paper" } };
 
@@ -33,7 +34,7 @@ const EnumNames<BooleanForm, 4> kForms = { "Form", "form",
 constexpr double kDust = 1e-4;
 
 // As many as Node keeps meshes.
-constexpr std::size_t kKeptCurves = 4;
+constexpr std::size_t kKeptCuts = 4;
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
@@ -72,10 +73,11 @@ double unionDistance(double a, double b)
 class Boolean final : public Operator
 {
 public:
-  Boolean(BooleanOperation operation, NodePtr a, NodePtr b, BooleanForm form)
+  Boolean(BooleanOperation operation, NodePtr a, NodePtr b, BooleanForm form, FacetMerging merging)
     : Operator({ std::move(a), std::move(b) })
     , operation_(operation)
     , form_(form)
+    , merging_(merging)
     , a_(this->child(0).get())
     , b_(this->child(1).get())
     , source_(operation, form == BooleanForm::Automatic ? BooleanForm::MinMax : form,
@@ -178,12 +180,19 @@ public:
     return warnings_;
   }
 
-  PointChains curves(double edgeLength) const
+  /// What is told of the mesh at an edge length; empty where it is that of the lattice.
+  struct CutOf
+  {
+    double edgeLength = 0.0;
+    PointChains curves;
+    Facets facets;
+  };
+  CutOf cutAt(double edgeLength) const
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    const auto found = std::find_if(
-      curves_.rbegin(), curves_.rend(), [&](const auto& kept) { return kept.first == edgeLength; });
-    return found != curves_.rend() ? found->second : PointChains();
+    const auto found = std::find_if(cuts_.rbegin(), cuts_.rend(),
+      [&](const CutOf& kept) { return kept.edgeLength == edgeLength; });
+    return found != cuts_.rend() ? *found : CutOf();
   }
 
   const char* kind() const override { return "boolean"; }
@@ -192,6 +201,10 @@ public:
     Parameters parameters;
     kOperations.describe(operation_, parameters);
     kForms.describe(form_, parameters);
+    if (merging_ != FacetMerging::Parts)
+    {
+      kMergings.describe(merging_, parameters);
+    }
     return parameters;
   }
 
@@ -199,8 +212,8 @@ protected:
   TriangleMesh makeMesh(double edgeLength, const Progress& progress) const override
   {
     BooleanMesh made = source_.isNothing()
-      ? BooleanMesh{ TriangleMesh(), {}, {} }
-      : booleanMesh(operation_, *a_, *b_, edgeLength, progress);
+      ? BooleanMesh{ TriangleMesh(), {}, {}, {} }
+      : booleanMesh(operation_, *a_, *b_, merging_, edgeLength, progress);
     if (!made.mesh)
     {
       made.warnings.push_back("The Boolean is made on a lattice of the edge length instead: its "
@@ -209,11 +222,11 @@ protected:
     }
     const std::lock_guard<std::mutex> lock(mutex_);
     warnings_ = std::move(made.warnings);
-    if (curves_.size() == kKeptCurves)
+    if (cuts_.size() == kKeptCuts)
     {
-      curves_.erase(curves_.begin());
+      cuts_.erase(cuts_.begin());
     }
-    curves_.emplace_back(edgeLength, std::move(made.curves));
+    cuts_.push_back({ edgeLength, std::move(made.curves), std::move(made.facets) });
     return std::move(*made.mesh);
   }
 
@@ -229,7 +242,7 @@ protected:
 
   NodePtr withChildren(std::vector<NodePtr> children) const override
   {
-    return makeBoolean(operation_, children[0], children[1], form_);
+    return makeBoolean(operation_, children[0], children[1], form_, merging_);
   }
 
   NodePtr makeUnderBlend() const override
@@ -241,7 +254,7 @@ protected:
     {
       return this->shared_from_this();
     }
-    return makeBoolean(operation_, std::move(a), std::move(b), form);
+    return makeBoolean(operation_, std::move(a), std::move(b), form, merging_);
   }
 
 private:
@@ -326,6 +339,7 @@ private:
 
   BooleanOperation operation_;
   BooleanForm form_;
+  FacetMerging merging_;
   const Node* a_;
   const Node* b_;
   BooleanSource source_;
@@ -333,25 +347,30 @@ private:
   Box3 surface_;
   bool negative_ = false;
   mutable std::mutex mutex_;
-  mutable std::vector<std::string> warnings_;                  ///< of the last mesh made
-  mutable std::vector<std::pair<double, PointChains>> curves_; ///< by edge length
+  mutable std::vector<std::string> warnings_; ///< of the last mesh made
+  mutable std::vector<CutOf> cuts_;           ///< of the last meshes made
 };
 
 } // namespace
 
-NodePtr makeBoolean(BooleanOperation operation, NodePtr a, NodePtr b, BooleanForm form)
+NodePtr makeBoolean(
+  BooleanOperation operation, NodePtr a, NodePtr b, BooleanForm form, FacetMerging merging)
 {
   kOperations.check(operation);
   kForms.check(form);
+  kMergings.check(merging);
   // Made twice, or read from two files: still one shape, whose difference is nothing.
   if (a && b && isSameTree(*a, *b))
   {
     b = a;
   }
-  return std::make_shared<Boolean>(operation, std::move(a), std::move(b), form);
+  return std::make_shared<Boolean>(operation, std::move(a), std::move(b), form, merging);
 }
 
-PointChains curvesOf(const Node& node, double edgeLength, const Progress& progress)
+namespace
+{
+
+Boolean::CutOf cutOf(const Node& node, double edgeLength, const Progress& progress)
 {
   const auto* boolean = dynamic_cast<const Boolean*>(&node);
   if (!boolean)
@@ -359,7 +378,19 @@ PointChains curvesOf(const Node& node, double edgeLength, const Progress& progre
     return {};
   }
   node.mesh(edgeLength, progress);
-  return boolean->curves(edgeLength > 0.0 ? edgeLength : node.defaultEdgeLength());
+  return boolean->cutAt(edgeLength > 0.0 ? edgeLength : node.defaultEdgeLength());
+}
+
+} // namespace
+
+PointChains curvesOf(const Node& node, double edgeLength, const Progress& progress)
+{
+  return cutOf(node, edgeLength, progress).curves;
+}
+
+Facets facetsOf(const Node& node, double edgeLength, const Progress& progress)
+{
+  return cutOf(node, edgeLength, progress).facets;
 }
 
 std::vector<std::vector<Vec3>> intersectionCurves(
@@ -387,8 +418,9 @@ NodePtr booleanFromParameters(
   const Parameters& parameters, const std::vector<NodePtr>& children, const MeshLookup&)
 {
   requireChildren("boolean", children, 2);
-  return makeBoolean(
-    kOperations.from(parameters), children[0], children[1], kForms.from(parameters));
+  return makeBoolean(kOperations.from(parameters), children[0], children[1],
+    kForms.from(parameters),
+    parameters.has(kMergings.parameter) ? kMergings.from(parameters) : FacetMerging::Parts);
 }
 
 } // namespace hybridtree

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "core/boolean/MergeFacets.h"
 #include "core/nodes/BooleanField.h"
+#include "core/nodes/BooleanMesh.h"
 #include "core/nodes/Node.h"
 #include "core/nodes/NodeMaker.h"
 
@@ -18,9 +20,10 @@ namespace hybridtree
 /// The mesh is the children's, cut (BooleanMesh.h); where they cannot be cut, that of the lattice,
 /// and warnings() says so from then on. All forms have the same surface, so the same mesh.
 /// Disjoint, empty and equal operands are answers, not errors.
+/// \param merging which triangles of the mesh are put together again after a cut.
 /// \pre no child is null. \throws InvalidParameter.
-NodePtr makeBoolean(
-  BooleanOperation operation, NodePtr a, NodePtr b, BooleanForm form = BooleanForm::Automatic);
+NodePtr makeBoolean(BooleanOperation operation, NodePtr a, NodePtr b,
+  BooleanForm form = BooleanForm::Automatic, FacetMerging merging = FacetMerging::Parts);
 
 /// Where the surfaces of a Boolean's operands cross, as chains of points of its mesh; closed ones
 /// end where they begin. Operands that are Booleans themselves add what is left of theirs. Makes
@@ -32,7 +35,12 @@ std::vector<std::vector<std::int32_t>> curvesOf(
 std::vector<std::vector<Vec3>> intersectionCurves(
   const Node& node, double edgeLength = 0.0, const Progress& progress = Progress::none());
 
-/// Kind "boolean", children A, B; names "operation" and "form".
+/// The facets of its mesh, under the same conditions as curvesOf(); empty where each triangle is
+/// one of its own.
+Facets facetsOf(
+  const Node& node, double edgeLength = 0.0, const Progress& progress = Progress::none());
+
+/// Kind "boolean", children A, B; names "operation", "form" and, where it is not Parts, "merging".
 NodePtr booleanFromParameters(
   const Parameters& parameters, const std::vector<NodePtr>& children, const MeshLookup& lookup);
 

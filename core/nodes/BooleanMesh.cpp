@@ -221,32 +221,45 @@ private:
     }
   }
 
-  // On a leaf of either operand, by the first triangle there that has the point.
+  // On a leaf of either operand, by a triangle of it that the point lies in; or, where that is of
+  // no mesh leaf, by another one there.
   void placeCutPoints()
   {
     if (!this->hasOrigins())
     {
       return;
     }
+    for (std::size_t k = 0; k < result_.cutPoints.size(); ++k)
+    {
+      const std::size_t point = result_.firstCut + k;
+      this->place(0, result_.cutPoints[k].home[0], point);
+      this->place(1, result_.cutPoints[k].home[1], point);
+    }
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
     {
       for (const std::int32_t point : mesh_.triangles[t])
       {
-        VertexOrigin& origin = mesh_.vertexOrigin[std::size_t(point)];
-        if (std::size_t(point) >= result_.firstCut && origin.leaf < 0)
+        if (std::size_t(point) >= result_.firstCut)
         {
-          origin = this->placed(t, mesh_.points[std::size_t(point)]);
+          this->place(
+            std::size_t(result_.sourceOperand[t]), result_.sourceTriangle[t], std::size_t(point));
         }
       }
     }
   }
 
-  VertexOrigin placed(std::size_t t, const Vec3& p) const
+  void place(std::size_t operand, std::int32_t source, std::size_t point)
   {
-    const std::size_t operand = std::size_t(result_.sourceOperand[t]);
+    if (source >= 0 && mesh_.vertexOrigin[point].leaf < 0)
+    {
+      mesh_.vertexOrigin[point] = this->placed(operand, source, mesh_.points[point]);
+    }
+  }
+
+  VertexOrigin placed(std::size_t operand, std::int32_t source, const Vec3& p) const
+  {
     const TriangleMesh& child = *child_[operand];
-    const std::int32_t source = result_.sourceTriangle[t];
-    if (source < 0 || child.sourceTriangle.empty() || child.vertexOrigin.empty() ||
+    if (child.sourceTriangle.empty() || child.vertexOrigin.empty() ||
       child.sourceTriangle[std::size_t(source)] < 0)
     {
       return {};
@@ -279,8 +292,8 @@ private:
 
 } // namespace
 
-BooleanMesh booleanMesh(BooleanOperation operation, const Node& a, const Node& b, double edgeLength,
-  const Progress& progress)
+BooleanMesh booleanMesh(BooleanOperation operation, const Node& a, const Node& b,
+  FacetMerging merging, double edgeLength, const Progress& progress)
 {
   const MeshPtr meshA = a.mesh(edgeLength, ProgressPart(progress, 0.0, 0.4));
   const MeshPtr meshB = b.mesh(edgeLength, ProgressPart(progress, 0.4, 0.8));
@@ -301,9 +314,17 @@ BooleanMesh booleanMesh(BooleanOperation operation, const Node& a, const Node& b
   {
     return made;
   }
+  const std::array<Facets, 2> facets = { facetsOf(a, edgeLength, progress),
+    facetsOf(b, edgeLength, progress) };
+  const std::array<std::size_t, 2> counts = { meshA->triangles.size(), meshB->triangles.size() };
+  if (merging != FacetMerging::None)
+  {
+    mergeFacets(result, facetsOf(result, facets, counts));
+  }
   projectCut(operation, { &a, &b }, { meshA.get(), meshB.get() }, edgeLength, result);
   Attributes({ meshA.get(), meshB.get() }, a, b, operation == BooleanOperation::Difference, result)
     .fill();
+  made.facets = facetsOf(result, facets, counts);
   made.curves = result.curves;
   for (int operand = 0; operand < 2; ++operand)
   {

@@ -8,8 +8,8 @@
 namespace hybridtree
 {
 
-NodePtr BooleanNest::make(
-  BooleanOperation operation, const std::vector<NodePtr>& operands, BooleanForm form)
+NodePtr BooleanNest::make(BooleanOperation operation, const std::vector<NodePtr>& operands,
+  BooleanForm form, FacetMerging merging)
 {
   if (operands.empty())
   {
@@ -21,13 +21,13 @@ NodePtr BooleanNest::make(
   }
   Known used;
   NodePtr all =
-    this->nest(operation, operands.data(), operands.data() + operands.size(), form, used);
+    this->nest(operation, operands.data(), operands.data() + operands.size(), form, merging, used);
   known_ = std::move(used);
   return all;
 }
 
 NodePtr BooleanNest::nest(BooleanOperation operation, const NodePtr* begin, const NodePtr* end,
-  BooleanForm form, Known& used) const
+  BooleanForm form, FacetMerging merging, Known& used) const
 {
   if (end - begin == 1)
   {
@@ -35,11 +35,13 @@ NodePtr BooleanNest::nest(BooleanOperation operation, const NodePtr* begin, cons
   }
   const bool cuts = operation == BooleanOperation::Difference;
   const NodePtr* middle = begin + (cuts ? 1 : (end - begin + 1) / 2);
-  const NodePtr a = this->nest(operation, begin, middle, form, used);
-  const NodePtr b = this->nest(cuts ? BooleanOperation::Union : operation, middle, end, form, used);
-  const Key key(operation, form, a.get(), b.get());
+  const NodePtr a = this->nest(operation, begin, middle, form, merging, used);
+  const NodePtr b =
+    this->nest(cuts ? BooleanOperation::Union : operation, middle, end, form, merging, used);
+  const Key key(operation, form, merging, a.get(), b.get());
   const auto found = known_.find(key);
-  NodePtr node = found != known_.end() ? found->second : makeBoolean(operation, a, b, form);
+  NodePtr node =
+    found != known_.end() ? found->second : makeBoolean(operation, a, b, form, merging);
   used[key] = node;
   return node;
 }

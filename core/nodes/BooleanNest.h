@@ -21,14 +21,14 @@ class BooleanNest
 public:
   /// One operand is itself. \pre at least one operand, none null. \throws InvalidParameter.
   NodePtr make(BooleanOperation operation, const std::vector<NodePtr>& operands,
-    BooleanForm form = BooleanForm::Automatic);
+    BooleanForm form = BooleanForm::Automatic, FacetMerging merging = FacetMerging::Parts);
 
 private:
-  using Key = std::tuple<BooleanOperation, BooleanForm, const Node*, const Node*>;
+  using Key = std::tuple<BooleanOperation, BooleanForm, FacetMerging, const Node*, const Node*>;
   using Known = std::map<Key, NodePtr>; // each holds its operands, so addresses stay unique
 
   NodePtr nest(BooleanOperation operation, const NodePtr* begin, const NodePtr* end,
-    BooleanForm form, Known& used) const;
+    BooleanForm form, FacetMerging merging, Known& used) const;
 
   Known known_;
 };

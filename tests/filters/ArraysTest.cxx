@@ -2,9 +2,11 @@
 // Normals, SourceId, SourceNames, and the arrays of mesh inputs.
 #include "tests/filters/Support.h"
 
+#include "vtkCell.h"
 #include "vtkCellData.h"
 #include "vtkCubeSource.h"
 #include "vtkDoubleArray.h"
+#include "vtkElevationFilter.h"
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"
 #include "vtkHybridTreeAffineTransform.h"
@@ -12,9 +14,11 @@
 #include "vtkHybridTreeBoolean.h"
 #include "vtkHybridTreeMeshField.h"
 #include "vtkIntArray.h"
+#include "vtkMath.h"
 #include "vtkPointData.h"
 #include "vtkSphereSource.h"
 #include "vtkStringArray.h"
+#include "vtkTriangle.h"
 #include "vtkXMLPolyDataReader.h"
 #include "vtkXMLPolyDataWriter.h"
 
@@ -181,7 +185,61 @@ TEST(Arrays, NormalsAreLeftOutWhereTheySmearLargeTriangles)
   round->SetPointNormals(vtkHybridTreeAlgorithm::NORMALS_NEVER);
   EXPECT_FALSE(normalsOf(round));
   round->SetPointNormals(17);
-  EXPECT_EQ(round->GetPointNormals(), vtkHybridTreeAlgorithm::NORMALS_NEVER);
+  EXPECT_EQ(round->GetPointNormals(), vtkHybridTreeAlgorithm::NORMALS_SPLIT);
+}
+
+// Both sides of a rim have normals of their own, and what is fed with the output does not notice.
+TEST(Arrays, SplitNormalsAreThoseOfTheirSide)
+{
+  vtkNew<vtkCubeSource> cube;
+  vtkNew<vtkElevationFilter> elevation;
+  elevation->SetInputConnection(cube->GetOutputPort());
+  vtkNew<vtkHybridTreeBoolean> drilled;
+  drilled->SetOperation(vtkHybridTreeBoolean::DIFFERENCE);
+  drilled->SetInputConnection(0, elevation->GetOutputPort());
+  const auto drill = rod();
+  drilled->SetInputConnection(1, drill->GetOutputPort());
+  drilled->Update();
+  const vtkIdType closedPoints = drilled->GetOutput()->GetNumberOfPoints();
+  const vtkIdType triangles = drilled->GetOutput()->GetNumberOfCells();
+  drilled->SetPointNormals(vtkHybridTreeAlgorithm::NORMALS_SPLIT);
+  vtkDataArray* normals = normalsOf(drilled);
+  vtkPolyData* output = drilled->GetOutput();
+  ASSERT_TRUE(normals);
+  EXPECT_GT(output->GetNumberOfPoints(), closedPoints);
+  EXPECT_EQ(output->GetNumberOfCells(), triangles);
+  for (vtkIdType t = 0; t < triangles; ++t)
+  {
+    vtkCell* cell = output->GetCell(t);
+    double p[3][3], own[3], side[3];
+    for (int k = 0; k < 3; ++k)
+    {
+      output->GetPoint(cell->GetPointId(k), p[k]);
+    }
+    vtkTriangle::ComputeNormal(p[0], p[1], p[2], own);
+    for (int k = 0; k < 3; ++k)
+    {
+      normals->GetTuple(cell->GetPointId(k), side);
+      EXPECT_GT(vtkMath::Dot(own, side), 0.9) << "triangle " << t;
+    }
+  }
+  vtkDataArray* heights = output->GetPointData()->GetArray("Elevation");
+  ASSERT_TRUE(heights);
+  EXPECT_EQ(heights->GetNumberOfTuples(), output->GetNumberOfPoints());
+
+  vtkNew<vtkHybridTreeBoolean> next;
+  next->SetInputConnection(0, drilled->GetOutputPort());
+  const auto knob = ball(5.0);
+  next->SetInputConnection(1, knob->GetOutputPort());
+  next->Update();
+  EXPECT_EQ(next->GetTree()->children()[0], drilled->GetTree());
+
+  vtkNew<vtkHybridTreeMeshField> plain; // without the tree, by welding
+  vtkNew<vtkPolyData> bare;
+  bare->CopyStructure(output);
+  plain->SetInputData(bare);
+  plain->Update();
+  EXPECT_EQ(plain->GetOutput()->GetNumberOfPoints(), closedPoints);
 }
 
 TEST(Arrays, SourceIdNamesLeaves)

@@ -44,7 +44,7 @@ NAMES = {
     "HybridTreeMeshField": (FIELD - {"SurfaceRadius"}) | {"Input"},
     "HybridTreeBlend": BLEND | {"Input"},
     "HybridTreeLocalBlend": BLEND | {"A", "B", "Region"},
-    "HybridTreeBoolean": COMMON | {"A", "B", "Operation", "Form"},
+    "HybridTreeBoolean": COMMON | {"A", "B", "Operation", "Form", "MergeCoplanar"},
     "HybridTreeTwist": BARR | {"Angle"},
     "HybridTreeTaper": BARR | {"Factor"},
     "HybridTreeBend": BARR | {"Angle"},

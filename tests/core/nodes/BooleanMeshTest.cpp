@@ -93,6 +93,42 @@ TEST(BooleanMesh, ProvenanceFollowsThroughNestedCuts)
   expectProvenance(makeBoolean(kIntersection, c, makeBoolean(kDifference, a, b)));
 }
 
+// A plate less balls, one after the other.
+NodePtr drilledInTurn(int holes, FacetMerging merging)
+{
+  NodePtr plate = leafOf(box(Vec3(0.0, 0.0, 0.0), Vec3(4.0, 3.0, 0.3)));
+  for (int k = 0; k < holes; ++k)
+  {
+    const Vec3 center(0.5 + 0.7 * (k % 4), 0.5 + 0.7 * (k / 4), 0.15);
+    plate = makeBoolean(
+      kDifference, plate, leafOf(icosphere(0.4, 2, center)), BooleanForm::Automatic, merging);
+  }
+  return plate;
+}
+
+TEST(BooleanMesh, CutsInTurnLeaveTheRestOfATriangleInOnePiece)
+{
+  const NodePtr merged = drilledInTurn(12, FacetMerging::Parts);
+  const NodePtr plain = drilledInTurn(12, FacetMerging::None);
+  const MeshPtr mesh = merged->mesh(0.1);
+  EXPECT_TRUE(checkMesh(*mesh).closedManifold()) << checkMesh(*mesh).describe();
+  EXPECT_NEAR(signedVolume(*mesh), signedVolume(*plain->mesh(0.1)), 1e-12);
+  EXPECT_LT(mesh->points.size(), plain->mesh(0.1)->points.size());
+  expectProvenance(merged);
+  const MeshPtr again = drilledInTurn(12, FacetMerging::Parts)->mesh(0.1);
+  EXPECT_EQ(mesh->points, again->points);
+  EXPECT_EQ(mesh->triangles, again->triangles);
+}
+
+TEST(BooleanMesh, MergingIsAParameter)
+{
+  const NodePtr plain = drilledInTurn(1, FacetMerging::None);
+  EXPECT_EQ(plain->parameters().getString("merging"), "none");
+  const NodePtr read = booleanFromParameters(plain->parameters(), plain->children(), {});
+  EXPECT_EQ(read->parameters().entries(), plain->parameters().entries());
+  EXPECT_FALSE(drilledInTurn(1, FacetMerging::Parts)->parameters().has("merging"));
+}
+
 TEST(BooleanMesh, PointsAwayFromTheCutAreTheLeavesOwn)
 {
   const TriangleMesh a = bumpySphere(1.0, 4);
