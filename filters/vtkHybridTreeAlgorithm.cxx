@@ -205,10 +205,11 @@ void vtkHybridTreeAlgorithm::Run(vtkInformationVector* outputs)
     return;
   }
   hybridtree::requireEdgeLength(this->EdgeLength);
-  this->UpdateNode();
   const hybridtree::FilterProgress progress(this);
+  this->UpdateNode(hybridtree::ProgressPart(progress, 0.0, hybridtree::kReadingShare));
   this->WriteOutput(vtkPolyData::GetData(info),
-    hybridtree::requested(info) == hybridtree::Formulation::Mesh, progress);
+    hybridtree::requested(info) == hybridtree::Formulation::Mesh,
+    hybridtree::ProgressPart(progress, hybridtree::kReadingShare, 1.0));
   this->FillOtherOutputs(outputs);
   this->Warn(this->Internals->Node->warnings());
 }
@@ -277,7 +278,7 @@ vtkPolyData* vtkHybridTreeAlgorithm::GetWholeInput(int port)
 
 //------------------------------------------------------------------------------
 vtkHybridTreeAlgorithm::Operands vtkHybridTreeAlgorithm::ReadOperands(
-  std::vector<std::string>& warnings)
+  std::vector<std::string>& warnings, const hybridtree::Progress& progress)
 {
   const std::size_t ports = this->Internals->Data.size();
   Operands operands(ports);
@@ -286,7 +287,9 @@ vtkHybridTreeAlgorithm::Operands vtkHybridTreeAlgorithm::ReadOperands(
   {
     if (this->TakesNodes(static_cast<int>(port)))
     {
-      operands[port] = this->ReadPort(port, warnings);
+      const double share = 1.0 / static_cast<double>(ports);
+      operands[port] = this->ReadPort(
+        port, warnings, hybridtree::ProgressPart(progress, share * port, share * (port + 1)));
     }
   }
   return operands;
@@ -294,7 +297,7 @@ vtkHybridTreeAlgorithm::Operands vtkHybridTreeAlgorithm::ReadOperands(
 
 //------------------------------------------------------------------------------
 std::vector<vtkHybridTreeAlgorithm::NodePtr> vtkHybridTreeAlgorithm::ReadPort(
-  std::size_t port, std::vector<std::string>& warnings)
+  std::size_t port, std::vector<std::string>& warnings, const hybridtree::Progress& progress)
 {
   vtkInformation* about = this->GetInputPortInformation(static_cast<int>(port));
   const bool takesTree = about->Get(TAKES_TREE()) != 0;
@@ -305,14 +308,22 @@ std::vector<vtkHybridTreeAlgorithm::NodePtr> vtkHybridTreeAlgorithm::ReadPort(
   std::vector<NodePtr> nodes;
   for (std::size_t k = 0; k < connections.size(); ++k)
   {
+    const int number = connections.size() > 1 ? static_cast<int>(k) + 1 : 0;
+    const double share = 1.0 / static_cast<double>(connections.size());
+    const hybridtree::ProgressPart part(progress, share * k, share * (k + 1));
+    this->SetProgressText(("Reading " + this->CalledInput(port, number)).c_str());
     try
     {
-      takesTree ? connections[k].read(data[k], warnings)
-                : connections[k].readMesh(data[k], warnings);
+      takesTree ? connections[k].read(data[k], warnings, part)
+                : connections[k].readMesh(data[k], warnings, part);
+    }
+    catch (const hybridtree::Cancelled&)
+    {
+      throw;
     }
     catch (const hybridtree::Error& error)
     {
-      this->ComplainOfInput(port, connections.size() > 1 ? static_cast<int>(k) + 1 : 0, error);
+      this->ComplainOfInput(port, number, error);
     }
     const std::vector<NodePtr>& shapes = connections[k].nodes();
     takesMany ? void(nodes.insert(nodes.end(), shapes.begin(), shapes.end()))
@@ -322,11 +333,21 @@ std::vector<vtkHybridTreeAlgorithm::NodePtr> vtkHybridTreeAlgorithm::ReadPort(
 }
 
 //------------------------------------------------------------------------------
-void vtkHybridTreeAlgorithm::UpdateNode()
+void vtkHybridTreeAlgorithm::UpdateNode(const hybridtree::Progress& progress)
 {
   State& state = *this->Internals;
   std::vector<std::string> warnings;
-  Operands operands = this->ReadOperands(warnings);
+  Operands operands;
+  const hybridtree::OwnProgressText text(this);
+  try
+  {
+    operands = this->ReadOperands(warnings, progress);
+  }
+  catch (const hybridtree::Cancelled&)
+  {
+    state.Inputs.clear(); // or what they have to tell would be lost
+    throw;
+  }
   const bool othersChanged = this->ReadOtherInputs();
   if (othersChanged || !state.Node || state.NodeTime != this->GetMTime() ||
     state.NodeOperands != operands)
@@ -385,17 +406,7 @@ bool vtkHybridTreeAlgorithm::NeedsNormals(const hybridtree::TriangleMesh& mesh) 
 //------------------------------------------------------------------------------
 void vtkHybridTreeAlgorithm::WarnOfLostShape(const hybridtree::TriangleMesh& mesh)
 {
-  if (!mesh.triangles.empty() || this->Internals->Node->isNegative())
-  {
-    return; // before its bounds are looked for, which can take longer than the mesh
-  }
-  const hybridtree::Box3 box = this->Internals->Node->surfaceBounds();
-  if (!box.isEmpty() && 2.0 * this->EdgeLength > box.diagonal().norm())
-  {
-    this->Warn({ "The shape has no triangles, as EdgeLength is too long for it: its bounds have a "
-                 "diagonal of " +
-      std::to_string(box.diagonal().norm()) + ". Use a smaller one, or 0." });
-  }
+  this->Warn(hybridtree::warningsOfLost(*this->Internals->Node, mesh, this->EdgeLength));
 }
 
 //------------------------------------------------------------------------------
@@ -407,7 +418,7 @@ void vtkHybridTreeAlgorithm::WarnOfTinyOperands()
   {
     count += nodes.size();
   }
-  if (count < 2)
+  if (count < 2 || state.Node->surfaceBounds().isEmpty())
   {
     return; // bounds may take longer than a preview, and one that is lost alone is told of
   }

@@ -209,9 +209,10 @@ private:
   std::string CalledInput(std::size_t port, int number);
   [[noreturn]] void ComplainOfInput(std::size_t port, int number, const hybridtree::Error& error);
   void Run(vtkInformationVector* outputs);
-  Operands ReadOperands(std::vector<std::string>& warnings);
-  std::vector<NodePtr> ReadPort(std::size_t port, std::vector<std::string>& warnings);
-  void UpdateNode();
+  Operands ReadOperands(std::vector<std::string>& warnings, const hybridtree::Progress& progress);
+  std::vector<NodePtr> ReadPort(
+    std::size_t port, std::vector<std::string>& warnings, const hybridtree::Progress& progress);
+  void UpdateNode(const hybridtree::Progress& progress);
   void ModifiedButTheNode();
   bool NeedsNormals(const hybridtree::TriangleMesh& mesh) const;
   void WriteOutput(vtkPolyData* output, bool withMesh, const hybridtree::Progress& progress);

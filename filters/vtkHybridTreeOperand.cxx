@@ -19,6 +19,9 @@ namespace
 constexpr double kPlainMaximumField = 2.0 * kThreshold;
 constexpr int kPlainExponent = 2;
 
+/// Share of the time that a mesh takes to read after which it is converted and repaired.
+constexpr double kConverted = 0.5;
+
 void requireData(bool there)
 {
   if (!there)
@@ -53,11 +56,12 @@ vtkPolyData* meshOf(const Block& block)
   return requireMesh(block.data);
 }
 
-void readBlock(const Block& from, OperandBlock& to, std::vector<std::string>& newWarnings)
+void readBlock(const Block& from, OperandBlock& to, std::vector<std::string>& newWarnings,
+  const Progress& progress)
 {
   try
   {
-    to.read(meshOf(from), newWarnings);
+    to.read(meshOf(from), newWarnings, progress);
   }
   catch (const InvalidGeometry& error)
   {
@@ -68,32 +72,35 @@ void readBlock(const Block& from, OperandBlock& to, std::vector<std::string>& ne
 
 } // namespace
 
-void OperandBlock::read(vtkPolyData* input, std::vector<std::string>& newWarnings)
+void OperandBlock::read(
+  vtkPolyData* input, std::vector<std::string>& newWarnings, const Progress& progress)
 {
   if (time_ != input->GetMTime()) // that of points, cells and arrays, too
   {
     time_ = 0;
-    this->readTree(input, newWarnings);
+    this->readTree(input, newWarnings, progress);
     time_ = input->GetMTime();
   }
 }
 
-void OperandBlock::readMesh(vtkPolyData* input, std::vector<std::string>& newWarnings)
+void OperandBlock::readMesh(
+  vtkPolyData* input, std::vector<std::string>& newWarnings, const Progress& progress)
 {
   if (time_ != input->GetMTime())
   {
     time_ = 0;
-    this->readTriangles(input, newWarnings);
+    this->readTriangles(input, newWarnings, progress);
     time_ = input->GetMTime();
   }
 }
 
-void OperandBlock::readTree(vtkPolyData* input, std::vector<std::string>& newWarnings)
+void OperandBlock::readTree(
+  vtkPolyData* input, std::vector<std::string>& newWarnings, const Progress& progress)
 {
   const CarriedTree carried = carriedTree(input);
   if (!carried.belongs)
   {
-    this->readTriangles(input, newWarnings);
+    this->readTriangles(input, newWarnings, progress);
     return;
   }
   if (carried.live)
@@ -103,6 +110,7 @@ void OperandBlock::readTree(vtkPolyData* input, std::vector<std::string>& newWar
   }
   else if (!node_ || text_ != carried.text)
   {
+    progress.report(0.0);
     node_ = fromText(carried.text, meshesIn(input->GetFieldData()));
     text_ = carried.text;
     std::unordered_set<const Node*> seen;
@@ -113,11 +121,14 @@ void OperandBlock::readTree(vtkPolyData* input, std::vector<std::string>& newWar
   mergeArrays(arraysIn(input->GetFieldData()), arrays_);
 }
 
-void OperandBlock::readTriangles(vtkPolyData* input, std::vector<std::string>& newWarnings)
+void OperandBlock::readTriangles(
+  vtkPolyData* input, std::vector<std::string>& newWarnings, const Progress& progress)
 {
   const vtkTypeUInt64 print = fingerprint(input);
   if (!mesh_.repaired.mesh || print != fingerprint_)
   {
+    progress.report(0.0);
+    progress.check();
     node_ = nullptr;
     text_.clear();
     mesh_ = toMesh(input);
@@ -126,9 +137,12 @@ void OperandBlock::readTriangles(vtkPolyData* input, std::vector<std::string>& n
   }
   if (!node_)
   {
+    progress.report(kConverted);
+    progress.check();
     const MeshPtr& mesh = mesh_.repaired.mesh;
     node_ = makeMeshNode(mesh, kPlainMaximumField, defaultInfluenceRadius(*mesh), kPlainExponent);
-    append(node_->warnings(), newWarnings);
+    append(node_->warnings(), newWarnings); // builds the hierarchy of the mesh
+    progress.report(1.0);
   }
   arrays_ = arraysOf(input, mesh_, newWarnings);
 }
@@ -138,7 +152,8 @@ bool OperandBlock::isPatch() const
   return mesh_.repaired.mesh && !checkMesh(*mesh_.repaired.mesh).closed();
 }
 
-void Operand::read(const std::vector<Block>& blocks, std::vector<std::string>& newWarnings)
+void Operand::read(
+  const std::vector<Block>& blocks, std::vector<std::string>& newWarnings, const Progress& progress)
 {
   requireData(!blocks.empty());
   blocks_.resize(blocks.size());
@@ -149,7 +164,9 @@ void Operand::read(const std::vector<Block>& blocks, std::vector<std::string>& n
   {
     OperandBlock& block = blocks_[k];
     std::vector<std::string> warnings;
-    readBlock(blocks[k], block, warnings);
+    const double share = 1.0 / double(blocks.size());
+    readBlock(
+      blocks[k], block, warnings, ProgressPart(progress, share * double(k), share * double(k + 1)));
     if (blocks.size() > 1 && block.isPatch())
     {
       patches.push_back(blocks[k]);
@@ -160,18 +177,19 @@ void Operand::read(const std::vector<Block>& blocks, std::vector<std::string>& n
   }
   if (!patches.empty())
   {
-    patches_.readMesh(vtkPolyData::SafeDownCast(joined(patches)), newWarnings);
+    patches_.readMesh(vtkPolyData::SafeDownCast(joined(patches)), newWarnings, progress);
     this->take(patches_);
   }
 }
 
-void Operand::readMesh(const std::vector<Block>& blocks, std::vector<std::string>& newWarnings)
+void Operand::readMesh(
+  const std::vector<Block>& blocks, std::vector<std::string>& newWarnings, const Progress& progress)
 {
   requireData(!blocks.empty());
   nodes_.clear();
   arrays_.clear();
   const Block whole{ "", joined(blocks) };
-  patches_.readMesh(meshOf(whole), newWarnings);
+  patches_.readMesh(meshOf(whole), newWarnings, progress);
   this->take(patches_);
 }
 

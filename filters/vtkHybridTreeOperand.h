@@ -3,6 +3,7 @@
 #ifndef vtkHybridTreeOperand_h
 #define vtkHybridTreeOperand_h
 
+#include "core/base/Progress.h"
 #include "core/nodes/BooleanNest.h"
 #include "core/nodes/Node.h"
 #include "vtkHybridTreeBlocks.h"
@@ -23,12 +24,13 @@ class OperandBlock
 {
 public:
   /// Reads the input: its tree where one belongs to it, else a mesh leaf. `newWarnings` gets what
-  /// the user should know about a node that was not there before. \throws InvalidGeometry,
-  /// InvalidText, TooLarge.
-  void read(vtkPolyData* input, std::vector<std::string>& newWarnings);
+  /// the user should know about a node that was not there before. Reports only where something is
+  /// new. \throws InvalidGeometry, InvalidText, TooLarge, Cancelled.
+  void read(vtkPolyData* input, std::vector<std::string>& newWarnings, const Progress& progress);
 
   /// As read(), but takes the input as a mesh whatever tree it has.
-  void readMesh(vtkPolyData* input, std::vector<std::string>& newWarnings);
+  void readMesh(
+    vtkPolyData* input, std::vector<std::string>& newWarnings, const Progress& progress);
 
   const NodePtr& node() const { return node_; }
 
@@ -39,8 +41,10 @@ public:
   bool isPatch() const;
 
 private:
-  void readTree(vtkPolyData* input, std::vector<std::string>& newWarnings);
-  void readTriangles(vtkPolyData* input, std::vector<std::string>& newWarnings);
+  void readTree(
+    vtkPolyData* input, std::vector<std::string>& newWarnings, const Progress& progress);
+  void readTriangles(
+    vtkPolyData* input, std::vector<std::string>& newWarnings, const Progress& progress);
 
   NodePtr node_;
   LeafArrays arrays_;
@@ -57,10 +61,12 @@ class Operand
 {
 public:
   /// Reads each block as OperandBlock does. \throws as it does, with the name of the block.
-  void read(const std::vector<Block>& blocks, std::vector<std::string>& newWarnings);
+  void read(const std::vector<Block>& blocks, std::vector<std::string>& newWarnings,
+    const Progress& progress);
 
   /// Takes all blocks together for one mesh, whatever trees they have.
-  void readMesh(const std::vector<Block>& blocks, std::vector<std::string>& newWarnings);
+  void readMesh(const std::vector<Block>& blocks, std::vector<std::string>& newWarnings,
+    const Progress& progress);
 
   /// One node for each shape; not empty once read.
   const std::vector<NodePtr>& nodes() const { return nodes_; }

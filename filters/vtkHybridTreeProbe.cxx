@@ -205,10 +205,19 @@ int vtkHybridTreeProbe::RequestData(
   vtkDataSet* output = vtkDataSet::GetData(outputs);
   const auto probe = [&]
   {
+    const hybridtree::FilterProgress progress(this);
+    const hybridtree::ProgressPart reading(progress, 0.0, hybridtree::kReadingShare);
+    const hybridtree::ProgressPart probing(progress, hybridtree::kReadingShare, 1.0);
     std::vector<std::string> warnings;
     try
     {
-      this->Internals->Tree.read(hybridtree::blocksOf(vtkDataObject::GetData(inputs[0])), warnings);
+      this->Internals->Tree.read(
+        hybridtree::blocksOf(vtkDataObject::GetData(inputs[0])), warnings, reading);
+    }
+    catch (const hybridtree::Cancelled&)
+    {
+      this->Internals->Tree = {}; // or what it has to tell would be lost
+      throw;
     }
     catch (const hybridtree::Error& error)
     {
@@ -219,8 +228,7 @@ int vtkHybridTreeProbe::RequestData(
       vtkWarningMacro(<< warning);
     }
     output->ShallowCopy(vtkDataSet::GetData(inputs[1]));
-    const hybridtree::FilterProgress progress(this);
-    Prober(*this->Internals->Tree.node(), output).run(progress);
+    Prober(*this->Internals->Tree.node(), output).run(probing);
   };
   return hybridtree::runOnAll(this, probe, [&] { output->Initialize(); });
 }

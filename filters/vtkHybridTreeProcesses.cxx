@@ -5,6 +5,7 @@
 #include "vtkAlgorithm.h"
 #include "vtkCommunicator.h"
 #include "vtkFieldData.h"
+#include "vtkHybridTreeAbort.h"
 #include "vtkHybridTreeConvert.h"
 #include "vtkHybridTreeLeaves.h"
 #include "vtkMultiProcessController.h"
@@ -131,6 +132,7 @@ int runOnAll(
   catch (const Cancelled&) // the user's wish, not an error
   {
     clear();
+    haveStopped(filter);
     done = 1;
   }
   catch (const std::exception& error)

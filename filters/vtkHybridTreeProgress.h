@@ -5,12 +5,16 @@
 
 #include "core/base/Progress.h"
 #include "vtkAlgorithm.h"
+#include "vtkHybridTreeAbort.h"
 
 #include <atomic>
 #include <thread>
 
 namespace hybridtree
 {
+
+/// Part of a filter's progress that reading its inputs takes.
+constexpr double kReadingShare = 0.05;
 
 /// VTK's progress events and abort flag belong to the thread that runs the filter. Other threads'
 /// reports are dropped, and what they hear of an abortion is what that thread has seen last.
@@ -34,7 +38,7 @@ public:
 
   bool cancelled() const override
   {
-    if (std::this_thread::get_id() == thread_ && mustStop(algorithm_, 0))
+    if (std::this_thread::get_id() == thread_ && mustStop(algorithm_))
     {
       cancelled_ = true;
     }
@@ -42,22 +46,23 @@ public:
   }
 
 private:
-  /// CheckAbort() exists from VTK 9.3 on, and also tells of aborted filters further up.
-  template <class Algorithm>
-  static auto mustStop(Algorithm* algorithm, int) -> decltype(algorithm->CheckAbort())
-  {
-    return algorithm->CheckAbort();
-  }
-  template <class Algorithm>
-  static bool mustStop(Algorithm* algorithm, long)
-  {
-    return algorithm->GetAbortExecute() != 0;
-  }
-
   vtkAlgorithm* algorithm_;
   std::thread::id thread_;
-  mutable double reported_ = 0.0;
+  mutable double reported_ = -1.0; ///< so that even a start is told
   mutable std::atomic<bool> cancelled_{ false };
+};
+
+/// Takes back what a filter calls its progress when it goes: other work has none but its name.
+class OwnProgressText
+{
+public:
+  explicit OwnProgressText(vtkAlgorithm* filter) : filter_(filter) {}
+  ~OwnProgressText() { filter_->SetProgressText(nullptr); }
+  OwnProgressText(const OwnProgressText&) = delete;
+  OwnProgressText& operator=(const OwnProgressText&) = delete;
+
+private:
+  vtkAlgorithm* filter_;
 };
 
 } // namespace hybridtree

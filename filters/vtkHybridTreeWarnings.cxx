@@ -23,6 +23,13 @@ std::string withoutNumbers(const std::string& text)
   return plain;
 }
 
+/// Other trees may well be empty, such as intersections.
+bool isOneLeaf(const Node& tree)
+{
+  const std::vector<NodePtr> children = tree.children();
+  return children.empty() || (children.size() == 1 && isOneLeaf(*children.front()));
+}
+
 } // namespace
 
 void ToldWarnings::startNode()
@@ -41,6 +48,35 @@ bool ToldWarnings::isNews(const std::string& warning)
   return std::none_of(before_.begin(), before_.end(),
     [plain = withoutNumbers(warning)](const std::string& told)
     { return withoutNumbers(told) == plain; });
+}
+
+std::vector<std::string> warningsOfLost(
+  const Node& shape, const TriangleMesh& mesh, double edgeLength)
+{
+  // Asked last: bounds can take longer than the mesh.
+  if (!mesh.triangles.empty() || shape.isNegative() || shape.surfaceBounds().isEmpty())
+  {
+    return {};
+  }
+  const double diagonal = shape.surfaceBounds().diagonal().norm();
+  std::ostringstream text;
+  if (2.0 * edgeLength > diagonal)
+  {
+    text << "The shape has no triangles, as EdgeLength is too long for it: its bounds have a "
+            "diagonal of "
+         << diagonal << ". Use a smaller one, or 0.";
+  }
+  else if (isOneLeaf(shape) && shape.warnings().empty())
+  {
+    text << "The shape has no triangles: it is thinner than their edges, which are to be "
+         << (edgeLength > 0.0 ? edgeLength : shape.defaultEdgeLength())
+         << " long. Use a smaller EdgeLength, or a larger SurfaceRadius.";
+  }
+  else
+  {
+    return {};
+  }
+  return { text.str() };
 }
 
 std::string warningOfTiny(const Node& operand, double edgeLength)

@@ -10,6 +10,7 @@ namespace hybridtree
 {
 
 class Node;
+struct TriangleMesh;
 
 /// Keeps a filter from telling the same again: nothing twice about one node, and not about the
 /// next node what it has told about the one before, as in a drag or an animation.
@@ -27,6 +28,11 @@ private:
   std::vector<std::string> told_;
   std::vector<std::string> before_;
 };
+
+/// What to say, if anything, where a shape that has a surface has come out without triangles.
+/// \param edgeLength asked for, 0 for the default.
+std::vector<std::string> warningsOfLost(
+  const Node& shape, const TriangleMesh& mesh, double edgeLength);
 
 /// What to say of an operand that is smaller than the edges of the triangles it will be made of;
 /// nothing of all others. Sources do not know the size of what they are blended with: beside a scan

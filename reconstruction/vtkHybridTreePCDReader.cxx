@@ -9,6 +9,7 @@
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"
+#include "vtkHybridTreeAbort.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkIntArray.h"
@@ -272,6 +273,7 @@ int vtkHybridTreePCDReader::RequestData(
   catch (const hybridtree::Cancelled&) // the user's wish, not an error
   {
     output->Initialize();
+    hybridtree::haveStopped(this);
     return 1;
   }
   catch (const std::exception& error)

@@ -14,6 +14,7 @@
 #include "vtkHybridTreeFreeFormDeformation.h"
 #include "vtkHybridTreeMeshField.h"
 #include "vtkHybridTreePoint.h"
+#include "vtkHybridTreeSurfaceOfRevolution.h"
 #include "vtkHybridTreeTaper.h"
 #include "vtkHybridTreeTwist.h"
 #include "vtkImageData.h"
@@ -379,6 +380,33 @@ TEST(BadInput, PrimitivesTooSmallForTheirBlendAreTold)
 }
 
 // In an animation the number in the message is another at each step.
+TEST(BadInput, ShapesThatComeOutEmptyAreTold)
+{
+  vtkNew<vtkHybridTreeSurfaceOfRevolution> ring; // 1 across, 1e6 from the axis
+  ring->SetNumberOfPoints(3);
+  ring->SetPoint(0, 1e6, 0.0, 0.0);
+  ring->SetPoint(1, 1e6 + 1.0, 0.0, 0.5);
+  ring->SetPoint(2, 1e6, 0.0, 1.0);
+  ring->SetSolid(false);
+  ring->SetKind(2); // straight
+  ring->SetSurfaceRadius(0.1);
+  const Messages ofRing(ring);
+  ring->Update();
+  ASSERT_EQ(ring->GetOutput()->GetNumberOfPoints(), 0);
+  EXPECT_NE(ofRing.warnings.find("thinner than their edges"), std::string::npos);
+
+  const auto a = ball();
+  const auto far = ball(5.0);
+  vtkNew<vtkHybridTreeBoolean> nothing;
+  nothing->SetInputConnection(0, a->GetOutputPort());
+  nothing->SetInputConnection(1, far->GetOutputPort());
+  nothing->SetOperation(vtkHybridTreeBoolean::INTERSECTION);
+  const Messages ofNothing(nothing);
+  nothing->Update();
+  ASSERT_EQ(nothing->GetOutput()->GetNumberOfPoints(), 0);
+  EXPECT_EQ(ofNothing.warnings, "") << "as it has to be";
+}
+
 TEST(BadInput, AWarningThatChangesOnlyItsNumbersIsToldOnce)
 {
   vtkNew<vtkHybridTreeBox> box;

@@ -19,6 +19,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace hybridtree::test
 {
 namespace
@@ -253,35 +255,108 @@ TEST(Pipeline, AnEditKeepsTheArraysOfMeshLeaves)
   EXPECT_NEAR(range[1], 0.4, 1e-6);
 }
 
-TEST(Pipeline, AbortEmptiesTheOutput)
+/// Asks a filter to stop, whenever it reports progress.
+class Stop
+{
+public:
+  explicit Stop(vtkAlgorithm* filter) : filter_(filter)
+  {
+    vtkNew<Command> command;
+    tag_ = filter->AddObserver(vtkCommand::ProgressEvent, command);
+  }
+  ~Stop() { filter_->RemoveObserver(tag_); }
+  Stop(const Stop&) = delete;
+  Stop& operator=(const Stop&) = delete;
+
+private:
+  class Command : public vtkCommand
+  {
+  public:
+    static Command* New() { return new Command; }
+    void Execute(vtkObject* caller, unsigned long, void*) override
+    {
+      static_cast<vtkAlgorithm*>(caller)->SetAbortExecute(1);
+    }
+  };
+
+  vtkSmartPointer<vtkAlgorithm> filter_;
+  unsigned long tag_;
+};
+
+TEST(Pipeline, AbortEmptiesTheOutputUntilTheNextUpdate)
 {
   const auto a = ball();
   const auto b = rod();
   vtkNew<vtkHybridTreeBlend> blend;
   blend->AddInputConnection(a->GetOutputPort());
   blend->AddInputConnection(b->GetOutputPort());
-  blend->SetEdgeLength(0.01);
+  blend->SetEdgeLength(0.05);
   const Messages messages(blend);
-  class Stop : public vtkCommand
+  {
+    const Stop stop(blend);
+    blend->Update();
+    EXPECT_EQ(blend->GetOutput()->GetNumberOfPoints(), 0);
+  }
+  EXPECT_EQ(messages.errors, "") << "a user's wish is no error";
+  blend->Update(); // nothing has changed
+  expectSolid(blend->GetOutput());
+  EXPECT_EQ(messages.errors, "");
+}
+
+TEST(Pipeline, ReadingAMeshIsToldAndCanBeStopped)
+{
+  vtkNew<vtkSphereSource> sphere;
+  sphere->SetEndPhi(120.0); // open, which is told once
+  const auto b = rod();
+  vtkNew<vtkHybridTreeBlend> blend;
+  blend->AddInputConnection(sphere->GetOutputPort());
+  blend->AddInputConnection(b->GetOutputPort());
+  class FirstText : public vtkCommand
   {
   public:
+    static FirstText* New() { return new FirstText; }
     void Execute(vtkObject* caller, unsigned long, void*) override
     {
-      static_cast<vtkAlgorithm*>(caller)->SetAbortExecute(1);
+      const char* text = static_cast<vtkAlgorithm*>(caller)->GetProgressText();
+      Texts.push_back(text ? text : "");
     }
+    std::vector<std::string> Texts;
   };
-  Stop* stop = new Stop;
-  const unsigned long tag = blend->AddObserver(vtkCommand::ProgressEvent, stop);
-  stop->Delete();
-  blend->Update();
+  vtkNew<FirstText> record;
+  blend->AddObserver(vtkCommand::ProgressEvent, record);
+  const Messages messages(blend);
+  {
+    const Stop stop(blend);
+    blend->Update();
+  }
   EXPECT_EQ(blend->GetOutput()->GetNumberOfPoints(), 0);
-  EXPECT_EQ(messages.errors, "") << "a user's wish is no error";
+  EXPECT_FALSE(blend->GetTree()) << "stopped before it was made";
+  EXPECT_EQ(messages.errors, "");
+  EXPECT_EQ(std::count(record->Texts.begin(), record->Texts.end(), "Reading Input 1"), 1);
+  EXPECT_EQ(messages.warnings, "");
 
-  blend->RemoveObserver(tag);
-  blend->SetAbortExecute(0);
-  blend->SetEdgeLength(0.1);
   blend->Update();
+  EXPECT_NE(messages.warnings.find("not a closed surface"), std::string::npos) << messages.warnings;
   expectSolid(blend->GetOutput());
+  EXPECT_EQ(record->Texts.back(), "");
+}
+
+TEST(Pipeline, WhatStandsBehindAnAbortedNodeFollowsAtTheNextUpdate)
+{
+  const auto a = ball();
+  vtkNew<vtkHybridTreeAffineTransform> move;
+  move->SetInputConnection(a->GetOutputPort());
+  vtkNew<vtkPVPostFilter> post;
+  post->SetInputConnection(move->GetOutputPort());
+  vtkNew<vtkElevationFilter> foreign;
+  foreign->SetInputConnection(post->GetOutputPort());
+  {
+    const Stop stop(move);
+    foreign->Update();
+    EXPECT_EQ(foreign->GetOutput()->GetNumberOfPoints(), 0);
+  }
+  foreign->Update();
+  expectSolid(vtkPolyData::SafeDownCast(foreign->GetOutput()));
 }
 
 TEST(Pipeline, ProgressReachesTheEndInOrder)
