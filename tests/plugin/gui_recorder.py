@@ -61,4 +61,8 @@ def watch(view):
 
 if __name__ == "__main__":
     simple.LoadPlugin(os.environ["HYBRIDTREE_PLUGIN"], remote=False)
+    if "HYBRIDTREE_SCAN" in os.environ:
+        center, radius = json.loads(os.environ["HYBRIDTREE_SCAN"])
+        simple.Show(simple.Sphere(registrationName="Scan", Center=center, Radius=radius, ThetaResolution=64,
+            PhiResolution=65))
     watch(simple.GetActiveViewOrCreate("RenderView"))

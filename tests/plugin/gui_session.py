@@ -274,14 +274,14 @@ def reload_state(session):
     session.expect_by_shell(same_as(index))
 
 
-def play(session, xvfb_run, home):
+def play(session, xvfb_run, home, **variables):
     """Returns what the GUI printed."""
     events = os.path.join(home, "session.xml")
     with open(events, "w") as file:
         file.write('<?xml version="1.0" ?>\n<pqevents>\n' + "\n".join(session.events) + "\n</pqevents>\n")
     return screen.run_paraview(xvfb_run, ["--script=" + os.path.join(FOLDER, "gui_recorder.py"),
         "--test-directory=" + home, "--test-script=" + events, "--exit"], home,
-        HYBRIDTREE_RECORD=os.path.join(home, "records"))
+        HYBRIDTREE_RECORD=os.path.join(home, "records"), **variables)
 
 
 def main():
