@@ -126,6 +126,7 @@ public:
   bool isNegative() const override { return negative_; }
 
   const char* kind() const override { return "blend"; }
+  double sampleCost(double below, double) const override { return below; }
   Parameters parameters() const override
   {
     Parameters parameters;

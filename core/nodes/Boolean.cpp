@@ -196,6 +196,7 @@ public:
   }
 
   const char* kind() const override { return "boolean"; }
+  double sampleCost(double below, double) const override { return below + 0.02; }
   Parameters parameters() const override
   {
     Parameters parameters;

@@ -79,6 +79,8 @@ public:
   std::optional<SurfaceField> surfaceField() const override;
 
   const char* kind() const override { return "freeForm"; }
+  /// Its triangles are about as long as the edges.
+  double sampleCost(double, double) const override { return MeshField::sampleCost(1.0); }
   Parameters parameters() const override;
   std::vector<std::string> warnings() const override
   {

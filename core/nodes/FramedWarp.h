@@ -21,6 +21,7 @@ public:
   void forward(PointBatch points, VectorBatch image) const override;
   void inverse(PointBatch points, VectorBatch preimage) const override;
   void pullBack(PointBatch preimages, VectorBatch gradient) const override;
+  double inverseCost() const override { return Map::kInverseCost; }
   Box3 preimageBounds(const Box3& box) const override;
   Box3 imageBounds(const Box3& box) const override;
 

@@ -223,6 +223,7 @@ public:
   bool isNegative() const override { return negative_; }
 
   const char* kind() const override { return "localBlend"; }
+  double sampleCost(double below, double) const override { return below; }
   Parameters parameters() const override
   {
     Parameters parameters;

@@ -138,6 +138,13 @@ MeshField::MeshField(
 
 MeshField::~MeshField() = default;
 
+double MeshField::sampleCost(double density)
+{
+  constexpr double kWhere = 0.25;
+  constexpr double kDensity = 0.61;
+  return kWhere + kDensity * std::sqrt(density);
+}
+
 const MeshDistance& MeshField::distance() const
 {
   std::call_once(once_, [&] { distance_ = sharedMeshDistance(mesh_); });

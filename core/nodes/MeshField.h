@@ -62,6 +62,10 @@ public:
   int exponent() const { return potential_.exponent(); }
   bool isNegative() const { return potential_.isNegative(); }
 
+  /// What a value costs, as Node::sampleCost() counts: to find where to look, and more where many
+  /// triangles are near. \param density triangles in a square of the edge length, >= 0.
+  static double sampleCost(double density);
+
   /// The hierarchy; built if it was not.
   const MeshDistance& distance() const;
 

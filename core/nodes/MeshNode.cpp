@@ -65,6 +65,10 @@ public:
       field_.exponent() };
   }
   bool isFaceted() const override { return true; }
+  double sampleCost(double, double edgeLength) const override
+  {
+    return MeshField::sampleCost(this->trianglesPerSquare(edgeLength));
+  }
   std::vector<std::string> warnings() const override { return field_.distance().warnings(); }
 
 protected:
@@ -77,8 +81,24 @@ protected:
   }
 
 private:
+  double trianglesPerSquare(double edgeLength) const;
+
   MeshField field_;
 };
+
+// By half of the area of the box; a square is one edge length wide.
+double MeshNode::trianglesPerSquare(double edgeLength) const
+{
+  const Box3 box = this->surfaceBounds();
+  if (box.isEmpty())
+  {
+    return 0.0;
+  }
+  const Vec3 side = box.sizes();
+  const double area = side.x() * side.y() + side.y() * side.z() + side.z() * side.x();
+  const double squares = std::max(area / (edgeLength * edgeLength), 1.0);
+  return static_cast<double>(field_.mesh()->triangles.size()) / squares;
+}
 
 // The mesh itself: the edge length only matters to nodes that make triangles.
 TriangleMesh MeshNode::makeMesh(double, const Progress& progress) const

@@ -107,6 +107,14 @@ public:
   /// kind.
   virtual std::optional<SurfaceField> surfaceField() const { return std::nullopt; }
 
+  /// What a value of the field costs near the surface, in microseconds of one processor, as far as
+  /// the kind of node tells: to choose between ways to mesh (fieldCost()). Only ratios matter;
+  /// measured on bricks of a lattice (docs/figures.md). The same for the same node. \param below
+  /// what a value of the fields of its children costs, together; 0 for leaves. \param edgeLength of
+  /// the lattice: the triangles of a mesh are the closer together for it the
+  ///   longer it is.
+  virtual double sampleCost(double below, double edgeLength) const = 0;
+
   /// What the user should know about this node itself: repairs made to its input, folds, open
   /// meshes.
   virtual std::vector<std::string> warnings() const { return {}; }

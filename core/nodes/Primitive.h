@@ -50,6 +50,7 @@ public:
   std::optional<SurfaceField> surfaceField() const override;
 
   const char* kind() const override { return "primitive"; }
+  double sampleCost(double, double) const override { return skeleton_->distanceCost(); }
   /// "skeleton" (its kind) with the skeleton's own, those of the potential, "map" where there is
   /// one.
   Parameters parameters() const override;

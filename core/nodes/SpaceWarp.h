@@ -28,6 +28,9 @@ public:
   /// g_k <- J_w(q_k)^-T g_k, which is J_{w^-1}^T g_k ([HT] 4.5.1). Normals likewise, up to length.
   virtual void pullBack(PointBatch preimages, VectorBatch gradient) const = 0;
 
+  /// What inverse() costs for a point, as Node::sampleCost() counts.
+  virtual double inverseCost() const = 0;
+
   /// A box that holds w^-1 of every point of the box: true bounds, which shrink to a point as the
   /// box does wherever w^-1 is continuous.
   virtual Box3 preimageBounds(const Box3& box) const = 0;

@@ -103,6 +103,7 @@ public:
   std::vector<std::string> warnings() const override { return warnings_.all(); }
 
   const char* kind() const override { return "subdivisionSkeleton"; }
+  double sampleCost(double, double) const override { return 0.16; }
   /// "points" (coordinates in a row), "radii", "segments" and "triangles" (indices in a row) of the
   /// coarse graph, the options, and "map" where there is one.
   Parameters parameters() const override;

@@ -20,6 +20,7 @@ struct TaperMap
   ///@{ As in TwistMap.
   Vec3 forward(const Vec3& p) const;
   Vec3 inverse(const Vec3& p) const;
+  static constexpr double kInverseCost = 0.04;
   Mat3 jacobian(const Vec3& p) const;
   Mat3 jacobianInverse(const Vec3& p) const;
   MatrixInterval jacobianOver(const Box3& box) const;

@@ -22,6 +22,7 @@ struct TwistMap
 
   Vec3 forward(const Vec3& p) const;
   Vec3 inverse(const Vec3& p) const;
+  static constexpr double kInverseCost = 0.1;
   Mat3 jacobian(const Vec3& p) const;
   /// Inverse of jacobian(p).
   Mat3 jacobianInverse(const Vec3& p) const;

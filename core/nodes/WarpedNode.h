@@ -23,6 +23,7 @@ public:
   Box3 influenceBounds() const override;
   Box3 surfaceBounds() const override;
   bool isNegative() const override { return child_->isNegative(); }
+  double sampleCost(double below, double) const override { return below + warp_->inverseCost(); }
 
 protected:
   /// \pre both not null.

@@ -20,6 +20,7 @@ public:
   Vec3 lengths() const { return 2.0 * shape_.half; }
   const Mat3& rotation() const { return shape_.axes; }
 
+  double distanceCost() const override { return kClosedForm; }
   Interval distanceRange(const Box3& box) const override;
   Box3 bounds() const override;
   double reach() const override { return kConvex; }

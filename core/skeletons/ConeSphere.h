@@ -21,6 +21,7 @@ public:
   double radius1() const { return radius1_; }
   double radius2() const { return radius2_; }
 
+  double distanceCost() const override { return kClosedForm; }
   Interval distanceRange(const Box3& box) const override;
   Box3 bounds() const override;
   double reach() const override { return kConvex; }

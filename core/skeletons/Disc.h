@@ -21,6 +21,7 @@ public:
   const Vec3& normal() const { return shape_.frame.axis; }
   double radius() const { return shape_.radius; }
 
+  double distanceCost() const override { return kClosedForm; }
   Interval distanceRange(const Box3& box) const override;
   Box3 bounds() const override;
   double reach() const override { return kConvex; }

@@ -22,6 +22,7 @@ public:
   const Vec3& radii() const { return radii_; }
   const Mat3& rotation() const { return rotation_; }
 
+  double distanceCost() const override { return 0.05; }
   Interval distanceRange(const Box3& box) const override;
   Box3 bounds() const override;
   double reach() const override { return kConvex; }

@@ -25,6 +25,7 @@ public:
   double outerRadius() const { return shape_.outer; }
   double innerRadius() const { return shape_.inner; }
 
+  double distanceCost() const override { return kClosedForm; }
   Interval distanceRange(const Box3& box) const override;
   Box3 bounds() const override;
   double reach() const override { return shape_.inner > 0.0 ? shape_.inner : kConvex; }

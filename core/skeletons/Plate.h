@@ -15,6 +15,7 @@ namespace hybridtree
 class PlateSkeleton : public KernelSkeleton<PlateShape>
 {
 public:
+  double distanceCost() const override { return kClosedForm; }
   /// Exact to second order in the size of the box; of an outline that is not convex the least and
   /// the most over its triangles.
   Interval distanceRange(const Box3& box) const override;

@@ -15,6 +15,7 @@ public:
 
   const Vec3& center() const { return shape_.center; }
 
+  double distanceCost() const override { return kClosedForm; }
   Interval distanceRange(const Box3& box) const override;
   Box3 bounds() const override;
   double reach() const override { return kConvex; }

@@ -39,6 +39,7 @@ public:
     PointBatch points, double* distance, VectorBatch gradient) const override;
   void signedDistance(PointBatch points, double* distance) const override;
 
+  double distanceCost() const override { return 0.1; }
   /// By the exact distance at the centre of the box, as for splines.
   Interval distanceRange(const Box3& box) const override;
   Box3 bounds() const override { return bounds_; }

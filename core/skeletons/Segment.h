@@ -16,6 +16,7 @@ public:
   const Vec3& a() const { return shape_.start; }
   const Vec3& b() const { return shape_.end; }
 
+  double distanceCost() const override { return kClosedForm; }
   Interval distanceRange(const Box3& box) const override;
   Box3 bounds() const override;
   double reach() const override { return kConvex; }

@@ -37,9 +37,9 @@ public:
     this->distance(points, distance);
   }
 
-  /// Offset surfaces of a radius below this keep clear of themselves: from any point inside of one it
-  /// is radius - signedDistance() to it. Infinite for a convex skeleton; the default where that is
-  /// not known.
+  /// Offset surfaces of a radius below this keep clear of themselves: from any point inside of one
+  /// it is radius - signedDistance() to it. Infinite for a convex skeleton; the default where that
+  /// is not known.
   virtual double reach() const { return 0.0; }
   static constexpr double kConvex = std::numeric_limits<double>::infinity();
 
@@ -49,6 +49,13 @@ public:
   virtual void addFalloff(PointBatch points, const Falloff& falloff, double* sum) const;
   virtual void addFalloffWithGradient(
     PointBatch points, const Falloff& falloff, double* sum, VectorBatch gradientSum) const;
+  ///@}
+
+  ///@{
+  /// What distance() costs for a point of a batch, in microseconds of one processor; only ratios
+  /// matter. kClosedForm for arithmetic alone in batches.
+  virtual double distanceCost() const = 0;
+  static constexpr double kClosedForm = 0.023;
   ///@}
 
   /// Conservative [min, max] of distance() over a box, tight as the box shrinks.

@@ -30,6 +30,7 @@ public:
   void signedDistance(PointBatch points, double* distance) const final;
   void addFalloff(PointBatch points, const Falloff& falloff, double* sum) const final;
 
+  double distanceCost() const final { return 0.22; }
   /// By the exact distance at the centre of the box. Above it is exact to first order, below it
   /// falls with the diagonal.
   Interval distanceRange(const Box3& box) const final;

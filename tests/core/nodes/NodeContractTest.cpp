@@ -3,6 +3,8 @@
 // agree.
 #include "core/mesh/MeshChecks.h"
 #include "core/mesh/MeshDistance.h"
+#include "core/nodes/Barr.h"
+#include "core/nodes/FieldCost.h"
 #include "core/tree/Serialize.h"
 #include "tests/core/nodes/NodeCases.h"
 #include "tests/support/Random.h"
@@ -425,6 +427,18 @@ TEST_P(NodeContract, TextGivesTheSameFieldBitForBit)
   const PointList points = randomPoints(random, grown(this->reach(), 1.05), 500);
   EXPECT_EQ(fieldAt(*read, points), fieldAt(this->node(), points));
   EXPECT_EQ(toText(*read), text);
+}
+
+// By which blends choose between ways to mesh: what is free would always be sampled.
+TEST_P(NodeContract, ASampleHasItsCost)
+{
+  const double cost = fieldCost(this->node(), 0.1);
+  EXPECT_GT(cost, 0.0);
+  EXPECT_LT(cost, 100.0); // microseconds
+  for (const NodePtr& child : this->node().children())
+  {
+    EXPECT_GT(fieldCost(*makeTwist(child, {}, 1.0), 0.1), fieldCost(*child, 0.1));
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, NodeContract, testing::ValuesIn(nodeCases()),
