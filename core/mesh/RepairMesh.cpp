@@ -3,6 +3,7 @@
 
 #include "core/base/Error.h"
 #include "core/geometry/Predicates.h"
+#include "core/mesh/LooseTriangles.h"
 #include "core/mesh/Orient.h"
 #include "core/mesh/Seams.h"
 
@@ -128,6 +129,7 @@ struct Counts
   std::size_t degenerate = 0; // repeated corner
   std::size_t flat = 0;       // three points on one line
   std::size_t duplicate = 0;
+  std::size_t loose = 0; // open pieces of a few beside closed surfaces
 };
 
 class Repair
@@ -141,7 +143,12 @@ public:
   RepairedMesh run()
   {
     checkInput(points_, triangles_);
-    this->tell(this->makeWithSeams());
+    Orientation orientation = this->makeWithSeams();
+    if (orientation.openEdges > 0 && this->findLoose())
+    {
+      orientation = this->make();
+    }
+    this->tell(orientation);
     result_.mesh = std::make_shared<const TriangleMesh>(std::move(mesh_));
     return std::move(result_);
   }
@@ -173,6 +180,18 @@ private:
     }
     seam_.clear();
     return this->make();
+  }
+
+  // Whether there are any.
+  bool findLoose()
+  {
+    const std::vector<bool> loose = looseTriangles(mesh_.triangles);
+    loose_.assign(loose.empty() ? 0 : triangles_.size(), false);
+    for (std::size_t t = 0; t < loose.size(); ++t)
+    {
+      loose_[std::size_t(result_.triangleMap[t])] = loose[t];
+    }
+    return !loose_.empty();
   }
 
   // Whether there are any; between points that welding takes for others.
@@ -237,7 +256,9 @@ private:
       counts_.degenerate += repeated;
       counts_.flat += flat;
       counts_.duplicate += !repeated && !flat && duplicate[t];
-      if (!repeated && !flat && !duplicate[t])
+      const bool loose = !repeated && !flat && !duplicate[t] && !loose_.empty() && loose_[t];
+      counts_.loose += loose;
+      if (!repeated && !flat && !duplicate[t] && !loose)
       {
         kept.push_back(c);
         result_.triangleMap.push_back(std::int32_t(t));
@@ -315,6 +336,8 @@ private:
           "width but keep the mesh from being closed."
         : "with three points on one line dropped.");
     this->say(counts_.duplicate, "duplicate triangle", "duplicate triangles", "dropped.");
+    this->say(counts_.loose, "loose triangle", "loose triangles",
+      "dropped: without them the mesh is closed.");
     this->say(orientation.flippedTriangles, "triangle", "triangles",
       "turned to agree with the neighbours.");
     this->say(orientation.flippedShells, "closed shell", "closed shells",
@@ -332,6 +355,7 @@ private:
   TriangleMesh mesh_;
   std::vector<std::int32_t> used_; // per point of the mesh the input point that it is
   std::vector<std::int32_t> seam_; // per input point the one that stands for it; -1: itself
+  std::vector<bool> loose_;        // per input triangle, or empty
   Counts counts_;
   RepairedMesh result_;
 };

@@ -31,6 +31,8 @@ struct RepairedMesh
 ///   open edges and no more edges of more than two triangles;
 /// - triangles with a repeated corner or three corners on one line are dropped, and so are second
 ///   copies of a triangle (whichever way round);
+/// - open pieces of a few triangles are dropped where without them the mesh is closed
+///   (LooseTriangles.h);
 /// - neighbours across an edge of two triangles are brought to one orientation, and closed shells
 /// to
 ///   point outward, or inward where a shell bounds a cavity: it lies inside an odd number of

@@ -220,6 +220,43 @@ TEST(RepairMesh, JoinsNothingThatIsWiderApart)
   EXPECT_FALSE(says(result, "joined with others"));
 }
 
+TEST(RepairMesh, DropsLooseTrianglesBesideAClosedSurface)
+{
+  const TriangleMesh solid = test::icosphere(1.0, 3);
+  const TriangleMesh flake =
+    test::withoutTriangles(test::icosphere(0.1, 0, Vec3(2.0, 0.0, 0.0)), 3, 17);
+  ASSERT_EQ(flake.triangles.size(), 3u);
+  const TriangleMesh input = test::joined(test::joined(flake, solid), turned(flake));
+  const RepairedMesh result = repair(input);
+  EXPECT_TRUE(isClosedManifold(*result.mesh)) << checkMesh(*result.mesh).describe();
+  EXPECT_EQ(result.mesh->triangles.size(), solid.triangles.size());
+  EXPECT_TRUE(says(result, "3 loose triangles dropped"));
+  EXPECT_TRUE(result.faults.empty());
+  expectMapsHold(input, result);
+}
+
+TEST(RepairMesh, KeepsOpenPiecesThatMayBeMeant)
+{
+  const TriangleMesh solid = test::icosphere(1.0, 3);
+  const TriangleMesh far = test::icosphere(0.1, 2, Vec3(2.0, 0.0, 0.0));
+  const std::size_t few = 16; // of one face of the icosahedron: they hang together
+  const TriangleMesh patch = test::withoutTriangles(far, few, far.triangles.size() - few);
+  TriangleMesh fin = solid; // on an edge of the solid
+  fin.points.push_back(Vec3(0.0, 0.0, 3.0));
+  fin.triangles.push_back(
+    { fin.triangles[0][0], fin.triangles[0][1], std::int32_t(fin.points.size()) - 1 });
+  const TriangleMesh flake = test::withoutTriangles(far, 1, far.triangles.size() - 1);
+  const TriangleMesh small = test::icosphere(1.0, 0); // of which a flake is a large part
+  for (const TriangleMesh& input : { test::joined(solid, patch), fin, test::joined(small, flake),
+         flake, test::joined(test::withoutTriangles(solid, 0, 1), flake) })
+  {
+    const RepairedMesh result = repair(input);
+    EXPECT_EQ(result.mesh->triangles.size(), input.triangles.size());
+    EXPECT_FALSE(says(result, "loose"));
+    EXPECT_FALSE(result.faults.empty());
+  }
+}
+
 TEST(RepairMesh, CountsWhatItCannotRepair)
 {
   EXPECT_TRUE(says(repair(test::withoutTriangles(test::icosphere(1.0, 1), 5, 1)), "3 open edges"));
