@@ -107,13 +107,14 @@ BoxTree::Box BoxTree::Box::nothing()
   return { { kFar, kFar, kFar }, { -kFar, -kFar, -kFar } };
 }
 
-BoxTree::BoxTree(const TriangleMesh& mesh) : bounds_(Box::nothing())
+BoxTree::BoxTree(const TriangleMesh& mesh, double reach) : bounds_(Box::nothing())
 {
   for (const Vec3& point : mesh.points)
   {
     bounds_.extend(point);
   }
   order_ = alongCurve(mesh, bounds_);
+  bounds_.grow(reach);
   const std::size_t groups = (order_.size() + kWidth - 1) / kWidth;
   levels_.emplace_back((groups + kWidth - 1) / kWidth);
   parallelFor(groups, kGrain / kWidth,
@@ -127,6 +128,7 @@ BoxTree::BoxTree(const TriangleMesh& mesh) : bounds_(Box::nothing())
         {
           box.extend(triangleBox(mesh, order_[k]));
         }
+        box.grow(reach);
         levels_[0][group / kWidth].set(group % kWidth, box);
       }
     });

@@ -44,6 +44,15 @@ public:
       }
     }
 
+    void grow(double by)
+    {
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        lower[axis] -= by;
+        upper[axis] += by;
+      }
+    }
+
     bool meets(const Box& other) const
     {
       return (lower[0] <= other.upper[0]) & (other.lower[0] <= upper[0]) &
@@ -94,8 +103,9 @@ public:
     Box box;
   };
 
+  /// \param reach how far boxes reach beyond their triangles, a length >= 0.
   /// \pre mesh has triangles; it is not kept.
-  explicit BoxTree(const TriangleMesh& mesh);
+  explicit BoxTree(const TriangleMesh& mesh, double reach = 0.0);
 
   Node root() const;
   const Box& bounds() const { return bounds_; }

@@ -4,6 +4,7 @@
 #include "core/base/Error.h"
 #include "core/base/Parallel.h"
 #include "core/boolean/Assemble.h"
+#include "core/boolean/BackToBack.h"
 #include "core/boolean/CleanResult.h"
 #include "core/boolean/CutCurves.h"
 #include "core/boolean/CutFaces.h"
@@ -27,6 +28,8 @@ constexpr int kAttempts = 3;
 constexpr double kCrossing = 0x1p-22;
 constexpr double kRounding = 0x1p-44;
 constexpr double kCoplanar = 1e-6; // sine of the angle between triangles
+constexpr std::array<double, 3> kSwellings = { 1.0, 2.0, 4.0 }; // of what counts as one
+constexpr double kDoubled = 1e-12; // of the operands' area: less without thickness does not count
 
 std::array<Keep, 2> keptBy(MeshOperation operation)
 {
@@ -108,31 +111,106 @@ private:
       kRounding * largest, kCrossing * std::min(boundsA.sizes().norm(), boundsB.sizes().norm()));
   }
 
-  // Whether triangles cross that are in one plane but for rounding.
-  bool nearlyCoincide(const CutCurves& curves) const
+  // Adds triangles that cross another one that is in one plane with it but for rounding.
+  bool addNearlyCoincident(
+    const CutCurves& curves, std::array<std::vector<std::int32_t>, 2>& triangles) const
   {
-    return std::any_of(curves.segments.begin(), curves.segments.end(),
-      [this](const Segment& segment)
+    bool any = false;
+    for (const Segment& segment : curves.segments)
+    {
+      const Vec3 one = areaNormal(a_.mesh(), std::size_t(segment.triangle[0]));
+      const Vec3 other = areaNormal(b_.mesh(), std::size_t(segment.triangle[1]));
+      if (!(one.cross(other).norm() > kCoplanar * one.norm() * other.norm()))
       {
-        const Vec3 one = areaNormal(a_.mesh(), std::size_t(segment.triangle[0]));
-        const Vec3 other = areaNormal(b_.mesh(), std::size_t(segment.triangle[1]));
-        return !(one.cross(other).norm() > kCoplanar * one.norm() * other.norm());
-      });
+        any = true;
+        triangles[0].push_back(segment.triangle[0]);
+        triangles[1].push_back(segment.triangle[1]);
+      }
+    }
+    return any;
   }
 
+  // Surfaces that coincide but for rounding leave gaps and sheets without thickness, which the next
+  // cut would cut again. Where there are some, the second operand is moved beyond rounding the way
+  // that the perturbation moves it, so that what touches merges; its points are taken back after.
   MeshBooleanResult once(std::uint64_t seed) const
   {
-    const PerturbedPredicates predicates(
-      [this](std::int32_t vertex) { return Vec3(swell_ * b_.outward(vertex)); }, seed);
-    const std::array<const MeshOperand*, 2> operands = { &a_, &b_ };
+    std::array<std::vector<std::int32_t>, 2> coincident;
+    MeshBooleanResult result = this->cutBy(b_, seed, progress_, coincident);
+    if (coincident[0].empty() || !result.usable)
+    {
+      return result;
+    }
+    const double least = kDoubled * (areaOf(a_.mesh()) + areaOf(b_.mesh()));
+    double doubled = this->doubledArea(result, coincident);
+    for (std::size_t k = 0; k < kSwellings.size() && doubled > least; ++k)
+    {
+      const double done = 0.8 + 0.06 * double(k);
+      MeshBooleanResult swollen =
+        this->swollenOnce(kSwellings[k], seed, ProgressPart(progress_, done, done + 0.06));
+      const double now = this->doubledArea(swollen, coincident);
+      if (swollen.usable && now < doubled)
+      {
+        result = std::move(swollen);
+        doubled = now;
+      }
+    }
+    return result;
+  }
 
-    const CutCurves curves = cutCurves(
-      a_, b_, predicates, triangleCrossings(a_, b_, predicates, ProgressPart(progress_, 0.0, 0.4)));
-    progress_.check();
-    progress_.report(0.5);
-    const MeshSides sides = meshSides(a_, b_, predicates, curves, this->tolerance());
-    progress_.check();
-    progress_.report(0.7);
+  // Not usable where that fails: nothing is lost then, as the other result is closed, too.
+  MeshBooleanResult swollenOnce(double swelling, std::uint64_t seed, const Progress& progress) const
+  {
+    try
+    {
+      std::array<std::vector<std::int32_t>, 2> coincident;
+      return this->cutBy(
+        b_.swollen(swelling * swell_ * this->rounding()), seed, progress, coincident);
+    }
+    catch (const InvalidGeometry&)
+    {
+      MeshBooleanResult none;
+      none.usable = false;
+      return none;
+    }
+  }
+
+  double rounding() const { return std::max(a_.rounding(), b_.rounding()); }
+
+  double doubledArea(const MeshBooleanResult& result,
+    const std::array<std::vector<std::int32_t>, 2>& coincident) const
+  {
+    return backToBackArea(
+      result, { &a_.mesh(), &b_.mesh() }, coincident, keep_[1].flip, 2.0 * this->rounding());
+  }
+
+  static double areaOf(const TriangleMesh& mesh)
+  {
+    double area = 0.0;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    {
+      area += 0.5 * areaNormal(mesh, t).norm();
+    }
+    return area;
+  }
+
+  // \param b the second operand, or that swollen.
+  MeshBooleanResult cutBy(const MeshOperand& b, std::uint64_t seed, const Progress& progress,
+    std::array<std::vector<std::int32_t>, 2>& coincident) const
+  {
+    const PerturbedPredicates predicates(
+      [this, &b](std::int32_t vertex) { return Vec3(swell_ * b.outward(vertex)); }, seed);
+    const std::array<const MeshOperand*, 2> operands = { &a_, &b };
+
+    TriangleCrossings met = triangleCrossings(a_, b, predicates, ProgressPart(progress, 0.0, 0.4));
+    coincident = std::move(met.touching);
+    const CutCurves curves = cutCurves(a_, b, predicates, std::move(met.segments));
+    const bool crossesCoincident = this->addNearlyCoincident(curves, coincident);
+    progress.check();
+    progress.report(0.5);
+    const MeshSides sides = meshSides(a_, b, predicates, curves, this->tolerance());
+    progress.check();
+    progress.report(0.7);
     MeshBooleanResult result;
     result.usable = !sides.contradictory;
     if (result.usable)
@@ -141,13 +219,40 @@ private:
       for (std::size_t mesh = 0; mesh < 2; ++mesh)
       {
         faces[mesh] = cutFaces(*operands[mesh], int(mesh), keep_[mesh], curves, sides);
-        progress_.check();
+        progress.check();
       }
-      progress_.report(0.8);
+      progress.report(0.8);
       result = assemble(operands, keep_, curves, sides, faces);
-      cleanResult(result, this->nearlyCoincide(curves));
+      if (&b != &b_)
+      {
+        this->takeBack(result);
+      }
+      cleanResult(result, crossesCoincident || &b != &b_);
     }
     return result;
+  }
+
+  // Points of the second operand to where they are when it is not swollen.
+  void takeBack(MeshBooleanResult& result) const
+  {
+    const std::vector<Vec3>& points = b_.mesh().points;
+    for (std::size_t k = result.firstOfB; k < result.firstCut; ++k)
+    {
+      if (result.sourcePoint[k] >= 0)
+      {
+        result.mesh.points[k] = points[std::size_t(result.sourcePoint[k])];
+      }
+    }
+    for (std::size_t k = 0; k < result.cutPoints.size(); ++k)
+    {
+      CutPoint& cut = result.cutPoints[k];
+      if (cut.operand == 1 && cut.low >= 0)
+      {
+        cut.position =
+          pointOnEdge(points[std::size_t(cut.low)], points[std::size_t(cut.high)], cut.parameter);
+        result.mesh.points[result.firstCut + k] = cut.position;
+      }
+    }
   }
 
   const std::array<Keep, 2> keep_;

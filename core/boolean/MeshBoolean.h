@@ -64,6 +64,10 @@ struct MeshBooleanResult
 /// has neither length nor height goes (CleanResult.h). Points and triangles away from the cut are
 /// copied.
 ///
+/// Surfaces that coincide but for rounding (2^-48 of the largest coordinate) count as coincident
+/// where they would leave a gap or a sheet without thickness: B is then cut as if it were larger,
+/// for an intersection smaller, by no more than 2^-46.
+///
 /// An operand may cross itself at the cut by rounding, up to 2^-22 of the smaller operand's size,
 /// as results of other cuts do: what is around which part how often is then told exactly, and the
 /// result is closed, with such crossings of its own (CutFaces.h).

@@ -3,6 +3,9 @@
 
 #include "core/base/Error.h"
 #include "core/base/Parallel.h"
+#include "core/boolean/FlatTriangles.h"
+
+#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <atomic>
@@ -17,6 +20,10 @@ namespace
 constexpr std::size_t kGrain = 1 << 15;
 constexpr double kLargest = 1e60; // six factors of it are still a double
 constexpr double kUnit = double(1 << 20);
+constexpr double kRounding = 0x1p-48;
+constexpr double kFlat = 16.0;     // roundings that are the height of a triangle without one
+constexpr double kSharpest = 1e-3; // of an error quadric's largest eigenvalue
+constexpr double kFarthest = 8.0;
 
 std::uint64_t mixed(std::uint64_t low, std::uint64_t high)
 {
@@ -151,32 +158,110 @@ MeshPtr closedMesh(const TriangleMesh& mesh)
   return closed;
 }
 
-void checkCoordinates(const TriangleMesh& mesh)
+// Returns the largest.
+double checkCoordinates(const TriangleMesh& mesh)
 {
+  double largest = 0.0;
   for (std::size_t k = 0; k < mesh.points.size(); ++k)
   {
-    if (!(mesh.points[k].cwiseAbs().maxCoeff() <= kLargest))
+    const double size = mesh.points[k].cwiseAbs().maxCoeff();
+    largest = std::max(largest, size);
+    if (!(size <= kLargest))
     {
       throw InvalidGeometry("Point " + std::to_string(k) +
         " of an operand has a coordinate that is above 1e60 or not finite. Scale the model, or "
         "repair the point.");
     }
   }
+  return largest;
 }
 
 } // namespace
 
 MeshOperand::MeshOperand(MeshPtr mesh) : original_(std::move(mesh)), mesh_(original_)
 {
-  checkCoordinates(*original_);
+  rounding_ = kRounding * checkCoordinates(*original_);
   if (!isClosed(original_->triangles))
   {
     mesh_ = closedMesh(*original_);
   }
+  this->makeTree();
+}
+
+MeshOperand::MeshOperand(MeshPtr original, MeshPtr closed)
+  : original_(std::move(original)), mesh_(std::move(closed))
+{
+  rounding_ = kRounding * checkCoordinates(*mesh_);
+  this->makeTree();
+}
+
+// Boxes of surfaces that count as one are to meet.
+void MeshOperand::makeTree()
+{
   if (!mesh_->empty())
   {
-    tree_ = std::make_unique<const BoxTree>(*mesh_);
+    tree_ = std::make_unique<const BoxTree>(*mesh_, rounding_);
   }
+}
+
+// The way w with w n = 1 for all normals n around a point, or the nearest to that, as with the
+// error quadrics of Garland and Heckbert: by the sums of n n^T and of n.
+Vec3 wayOut(const Mat3& sum, const Vec3& right)
+{
+  Eigen::SelfAdjointEigenSolver<Mat3> solver;
+  solver.computeDirect(sum);
+  Vec3 way = Vec3::Zero();
+  for (int k = 0; k < 3; ++k)
+  {
+    const Vec3 axis = solver.eigenvectors().col(k);
+    const double value = solver.eigenvalues()[k];
+    if (value > kSharpest * solver.eigenvalues()[2])
+    {
+      way += axis.dot(right) / value * axis;
+    }
+  }
+  const double length = way.norm();
+  return length > kFarthest ? Vec3(way * (kFarthest / length)) : way;
+}
+
+// The normals of flat triangles tell nothing: they are left out.
+MeshOperand MeshOperand::swollen(double distance) const
+{
+  const auto forEachCorner = [this](auto&& visit)
+  {
+    for (const Triangle& c : mesh_->triangles)
+    {
+      const auto at = [&](std::size_t k) -> const Vec3&
+      { return mesh_->points[std::size_t(c[k % 3])]; };
+      if (isFlat(at(0), at(1), at(2), kFlat * rounding_))
+      {
+        continue;
+      }
+      const Vec3 normal = (at(1) - at(0)).cross(at(2) - at(0)).normalized();
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        const Vec3 u = at(k + 1) - at(k);
+        const Vec3 v = at(k + 2) - at(k);
+        visit(std::size_t(c[k]), normal, std::atan2(u.cross(v).norm(), u.dot(v)));
+      }
+    }
+  };
+  std::vector<Mat3> normals(mesh_->points.size(), Mat3::Zero());
+  std::vector<Vec3> way(mesh_->points.size(), Vec3::Zero());
+  forEachCorner(
+    [&](std::size_t point, const Vec3& normal, double angle)
+    {
+      way[point] += angle * normal;
+      normals[point] += angle * normal * normal.transpose();
+    });
+  auto moved = std::make_shared<TriangleMesh>();
+  moved->triangles = mesh_->triangles;
+  moved->points = mesh_->points;
+  for (std::size_t k = 0; k < way.size(); ++k)
+  {
+    moved->points[k] += distance * wayOut(normals[k], way[k]);
+  }
+  return MeshOperand(original_, std::move(moved));
 }
 
 Vec3 MeshOperand::outward(std::int32_t vertex) const

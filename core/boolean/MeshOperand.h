@@ -34,16 +34,27 @@ public:
     return mesh_->triangles.size() - original_->triangles.size();
   }
 
+  /// How far apart surfaces may be that count as one where rounding is what parts them: 2^-48 of
+  /// the largest coordinate.
+  double rounding() const { return rounding_; }
+
+  /// The same mesh with each point moved so that the triangles around it lie outward by `distance`,
+  /// where the point has not to go farther than twice that; inward below 0.
+  MeshOperand swollen(double distance) const;
+
   /// Outward at a vertex: the mean of the normals of its triangles by angle, as integers below
   /// 2^20.
   Vec3 outward(std::int32_t vertex) const;
 
 private:
+  MeshOperand(MeshPtr original, MeshPtr closed);
+  void makeTree();
   void makeOutward() const;
 
   MeshPtr original_;
   MeshPtr mesh_;
   std::unique_ptr<const BoxTree> tree_;
+  double rounding_ = 0.0;
   mutable std::once_flag once_;
   mutable std::vector<Vec3> outward_; // made when the first tie asks
 };

@@ -4,6 +4,8 @@
 #include "core/base/Error.h"
 #include "core/base/Parallel.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace hybridtree
@@ -173,22 +175,34 @@ struct Candidate
   BoxTree::Box box;
   std::array<Vec3, 3> corner;
   Vec3 normal;
-  double size; ///< of the products that make a distance from the plane, per length
+  double size;  ///< of the products that make a distance from the plane, per length
+  double reach; ///< how far from the plane rounding goes, times the length of the normal
 
-  // Whether a triangle lies on one side of the plane of this one beyond doubt.
+  // Whether a triangle lies on one side of the plane of this one beyond doubt, and not on the plane
+  // but for rounding.
   bool isBeside(const Candidate& other) const
   {
     int above = 0;
     int below = 0;
-    for (const Vec3& p : other.corner)
+    std::array<double, 3> distance;
+    for (std::size_t k = 0; k < 3; ++k)
     {
-      const Vec3 d = p - corner[0];
-      const double distance = normal.dot(d);
+      const Vec3 d = other.corner[k] - corner[0];
+      distance[k] = normal.dot(d);
       const double doubt = size * d.cwiseAbs().maxCoeff();
-      above += distance > doubt;
-      below += distance < -doubt;
+      above += distance[k] > doubt;
+      below += distance[k] < -doubt;
     }
-    return above == 3 || below == 3;
+    return (above == 3 || below == 3) &&
+      (std::abs(distance[0]) > reach || std::abs(distance[1]) > reach ||
+        std::abs(distance[2]) > reach);
+  }
+
+  // Whether it lies on the plane but for rounding.
+  bool hasOn(const Candidate& other) const
+  {
+    return std::all_of(other.corner.begin(), other.corner.end(),
+      [this](const Vec3& p) { return std::abs(normal.dot(p - corner[0])) <= reach; });
   }
 };
 
@@ -203,7 +217,10 @@ public:
     std::array<Candidate, BoxTree::kWidth> candidates;
   };
 
-  explicit CandidateCache(const MeshOperand& operand) : operand_(operand), groups_(kGroups) {}
+  CandidateCache(const MeshOperand& operand, double rounding)
+    : operand_(operand), rounding_(rounding), groups_(kGroups)
+  {
+  }
 
   const Group& get(const BoxTree::Node& node)
   {
@@ -238,9 +255,12 @@ private:
     const Vec3 v = candidate.corner[2] - candidate.corner[0];
     candidate.normal = u.cross(v);
     candidate.size = kDoubt * u.cwiseAbs().maxCoeff() * v.cwiseAbs().maxCoeff();
+    candidate.reach = rounding_ * candidate.normal.norm();
+    candidate.box.grow(rounding_);
   }
 
   const MeshOperand& operand_;
+  const double rounding_;
   std::vector<Group> groups_;
 };
 
@@ -248,8 +268,13 @@ class Walk
 {
 public:
   Walk(const MeshOperand& a, const MeshOperand& b, const PerturbedPredicates& predicates,
-    std::vector<Segment>& found)
-    : a_(a), b_(b), first_(a), second_(b), pair_(a, b, predicates), found_(found)
+    TriangleCrossings& found)
+    : a_(a)
+    , b_(b)
+    , first_(a, std::max(a.rounding(), b.rounding()))
+    , second_(b, std::max(a.rounding(), b.rounding()))
+    , pair_(a, b, predicates)
+    , found_(found)
   {
   }
 
@@ -286,10 +311,18 @@ private:
       for (std::size_t j = 0; j < count; ++j)
       {
         const Candidate& other = *near[j];
-        if (mine.box.meets(other.box) && !mine.isBeside(other) && !other.isBeside(mine) &&
-          pair_.cross(mine.triangle, other.triangle, segment))
+        if (!mine.box.meets(other.box) || mine.isBeside(other) || other.isBeside(mine))
         {
-          found_.push_back(segment);
+          continue;
+        }
+        if (mine.hasOn(other) && other.hasOn(mine))
+        {
+          found_.touching[0].push_back(mine.triangle);
+          found_.touching[1].push_back(other.triangle);
+        }
+        if (pair_.cross(mine.triangle, other.triangle, segment))
+        {
+          found_.segments.push_back(segment);
         }
       }
     }
@@ -300,7 +333,7 @@ private:
   CandidateCache first_;
   CandidateCache second_;
   TrianglePair pair_;
-  std::vector<Segment>& found_;
+  TriangleCrossings& found_;
 };
 
 // Enough pairs of nodes to share out, by levels.
@@ -337,11 +370,11 @@ Site siteOf(const MeshOperand& operand, std::int32_t vertex, bool second)
   return { operand.mesh().points[std::size_t(vertex)], vertex, second };
 }
 
-std::vector<Segment> triangleCrossings(const MeshOperand& a, const MeshOperand& b,
+TriangleCrossings triangleCrossings(const MeshOperand& a, const MeshOperand& b,
   const PerturbedPredicates& predicates, const Progress& progress)
 {
   const std::vector<NodePair> pairs = firstPairs(a.tree(), b.tree());
-  std::vector<std::vector<Segment>> found((pairs.size() + kPairsPerTask - 1) / kPairsPerTask);
+  std::vector<TriangleCrossings> found((pairs.size() + kPairsPerTask - 1) / kPairsPerTask);
   parallelFor(pairs.size(), kPairsPerTask,
     [&](std::size_t begin, std::size_t end)
     {
@@ -353,17 +386,22 @@ std::vector<Segment> triangleCrossings(const MeshOperand& a, const MeshOperand& 
       }
     });
   std::size_t count = 0;
-  for (const std::vector<Segment>& part : found)
+  for (const TriangleCrossings& part : found)
   {
-    count += part.size();
+    count += part.segments.size();
   }
-  std::vector<Segment> segments;
-  segments.reserve(count);
-  for (const std::vector<Segment>& part : found)
+  TriangleCrossings all;
+  all.segments.reserve(count);
+  for (const TriangleCrossings& part : found)
   {
-    segments.insert(segments.end(), part.begin(), part.end());
+    all.segments.insert(all.segments.end(), part.segments.begin(), part.segments.end());
+    for (std::size_t mesh = 0; mesh < 2; ++mesh)
+    {
+      all.touching[mesh].insert(
+        all.touching[mesh].end(), part.touching[mesh].begin(), part.touching[mesh].end());
+    }
   }
-  return segments;
+  return all;
 }
 
 } // namespace hybridtree

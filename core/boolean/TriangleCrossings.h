@@ -32,11 +32,20 @@ struct Segment
   SegmentEnd end;
 };
 
+/// How the triangles of two meshes meet.
+struct TriangleCrossings
+{
+  std::vector<Segment> segments;
+  /// Per mesh: its triangles, not each but once, that lie on one of the other mesh but for rounding
+  /// (MeshOperand::rounding()).
+  std::array<std::vector<std::int32_t>, 2> touching;
+};
+
 /// All of them, in an order that depends on the meshes alone.
 ///
 /// Sides of vertices and of edges decide (Guigue and Devillers 2003); no point is constructed.
 /// \throws Cancelled; InvalidGeometry where the predicates fail to tell.
-std::vector<Segment> triangleCrossings(const MeshOperand& a, const MeshOperand& b,
+TriangleCrossings triangleCrossings(const MeshOperand& a, const MeshOperand& b,
   const PerturbedPredicates& predicates, const Progress& progress);
 
 Site siteOf(const MeshOperand& operand, std::int32_t vertex, bool second);
