@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/convolution/BlendGroups.h"
 
-#include <algorithm>
 #include <array>
 
 namespace hybridtree
@@ -14,31 +13,6 @@ thread_local std::array<std::vector<std::int32_t>, 2> numbers;
 thread_local std::array<std::vector<std::int32_t>, 2> met;
 
 } // namespace
-
-void FarGroup::findNear(double farthest)
-{
-  for (const BlendPieces::Place* place : places)
-  {
-    for (const GroupDistance& of : place->distances)
-    {
-      near.push_back(of.group);
-    }
-  }
-  std::sort(near.begin(), near.end());
-  near.erase(std::unique(near.begin(), near.end()), near.end());
-  nearness.assign(this->size() * this->columns(), 0.0);
-  double* row = nearness.data();
-  for (const BlendPieces::Place* place : places)
-  {
-    row[0] = 1.0;
-    for (const GroupDistance& of : place->distances)
-    {
-      const auto found = std::lower_bound(near.begin(), near.end(), of.group);
-      row[1 + (found - near.begin())] = farthest - of.distance;
-    }
-    row += this->columns();
-  }
-}
 
 GroupNumbers::GroupNumbers(std::size_t groups, Use use) : numbers_(numbers[use]), groups_(met[use])
 {

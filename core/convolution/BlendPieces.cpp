@@ -2,369 +2,64 @@
 #include "core/convolution/BlendPieces.h"
 
 #include "core/base/Error.h"
-#include "core/convolution/ElementBounds.h"
+#include "core/base/Parallel.h"
 #include "core/convolution/ElementTree.h"
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cmath>
-#include <iterator>
 #include <limits>
+#include <string>
 
 namespace hybridtree
 {
 namespace
 {
 
-void makeUnique(std::vector<std::int32_t>& list)
+constexpr double kSightDistance = 1.0;         // up to which beta is 1
+constexpr std::size_t kMostWeights = 60000000; // in both tables: about a gigabyte
+constexpr std::size_t kSamples = 128;
+constexpr double kClearly = 1.15; // so that what would fit is not refused by an estimate
+constexpr std::size_t kLeastGrain = 32;
+constexpr std::size_t kMostParts = 128;
+
+[[noreturn]] void refuse()
 {
-  std::sort(list.begin(), list.end());
-  list.erase(std::unique(list.begin(), list.end()), list.end());
+  throw TooLarge("Blending = neighbours would have to keep more than " +
+    std::to_string(kMostWeights) +
+    " distances along the skeleton: its elements are many and small beside the radius. Choose "
+    "Blending = all, a lower Level, a smaller radius or BlendDistance, or a coarser skeleton.");
 }
 
-// In units of R. Middles of pieces are then half of R apart, in segments as in triangles.
-constexpr double kPieceLength = 0.5;
-constexpr double kPieceSide = 0.85;
-constexpr int kMostParts = 1024; // of a segment
-constexpr int kMostSides = 32;   // parts of a triangle's edge
-
-int partsOf(double length, double longest, int most)
+// A ball around some.
+ElementBall around(const ElementBall& a, const ElementBall& b)
 {
-  return static_cast<int>(std::clamp(std::ceil(length / longest), 1.0, double(most)));
+  const double radiusA = std::sqrt(a.squaredRadius);
+  const double radiusB = std::sqrt(b.squaredRadius);
+  const double between = (b.center - a.center).norm();
+  if (between + radiusB <= radiusA)
+  {
+    return a;
+  }
+  if (between + radiusA <= radiusB)
+  {
+    return b;
+  }
+  const double radius = 0.5 * (1.0 + 1e-12) * (between + radiusA + radiusB);
+  return { a.center + (radius - radiusA) / between * (b.center - a.center), radius * radius };
 }
 
-// What the corners of an element have, weighted.
-template <std::size_t N>
-struct Weighted
+Box3 boxOf(const ElementBall& ball)
 {
-  std::array<double, N> weights;
-
-  template <typename Values>
-  auto operator()(const Values& values) const
-  {
-    typename Values::value_type sum = weights[0] * values[0];
-    for (std::size_t k = 1; k < N; ++k)
-    {
-      sum += weights[k] * values[k];
-    }
-    return sum;
-  }
-};
-
-template <std::size_t N>
-std::array<Vec3, N> cornersOf(const GroupedElements& elements, const GroupedElement<N>& element)
-{
-  std::array<Vec3, N> corners;
-  for (std::size_t k = 0; k < N; ++k)
-  {
-    corners[k] = elements.points[static_cast<std::size_t>(element.corners[k])];
-  }
-  return corners;
+  const Vec3 radius = Vec3::Constant(std::sqrt(ball.squaredRadius));
+  return Box3(Vec3(ball.center - radius), Vec3(ball.center + radius));
 }
 
-// Distances along the skeleton.
-class GraphPlaces
+bool meet(const ElementBall& a, const ElementBall& b)
 {
-public:
-  GraphPlaces(const GroupedElements& elements, double limit)
-    : elements_(elements), limit_(limit), distances_(groupDistances(elements, limit))
-  {
-  }
-
-  BlendPieces::Place at(const GroupedElement<2>& segment, const Weighted<2>& where) const
-  {
-    const auto a = static_cast<std::size_t>(segment.corners[0]);
-    const auto b = static_cast<std::size_t>(segment.corners[1]);
-    const double length = 2.0 * (elements_.points[a] - elements_.points[b]).norm() /
-      (elements_.reaches[a] + elements_.reaches[b]);
-    return this->place(segment,
-      [&](const std::array<double, 2>& ends) {
-        return std::min(ends[0] + where.weights[1] * length, ends[1] + where.weights[0] * length);
-      });
-  }
-  // Linear over a triangle.
-  BlendPieces::Place at(const GroupedElement<3>& triangle, const Weighted<3>& where) const
-  {
-    return this->place(
-      triangle, [&](const std::array<double, 3>& corners) { return where(corners); });
-  }
-
-  std::vector<std::vector<std::int32_t>> neighbours() const
-  {
-    std::vector<std::vector<std::int32_t>> groupsAtPoints(elements_.points.size());
-    collect(elements_.segments, groupsAtPoints);
-    collect(elements_.triangles, groupsAtPoints);
-    std::vector<std::vector<std::int32_t>> lists(elements_.groups.size());
-    for (std::size_t point = 0; point < groupsAtPoints.size(); ++point)
-    {
-      makeUnique(groupsAtPoints[point]);
-      for (const GroupDistance& near : distances_[point])
-      {
-        for (const std::int32_t group : groupsAtPoints[point])
-        {
-          if (near.distance < limit_)
-          {
-            lists[static_cast<std::size_t>(group)].push_back(near.group);
-            lists[static_cast<std::size_t>(near.group)].push_back(group);
-          }
-        }
-      }
-    }
-    for (std::size_t group = 0; group < lists.size(); ++group)
-    {
-      std::vector<std::int32_t>& list = lists[group];
-      makeUnique(list);
-      list.erase(
-        std::remove(list.begin(), list.end(), static_cast<std::int32_t>(group)), list.end());
-    }
-    return lists;
-  }
-
-private:
-  // Corners' lists ascend by group. Absent from one: farther than any limit.
-  template <std::size_t N, typename Distance>
-  BlendPieces::Place place(const GroupedElement<N>& element, const Distance& distance) const
-  {
-    BlendPieces::Place place{ element.group, {} };
-    std::array<const GroupDistance*, N> next;
-    std::array<const GroupDistance*, N> end;
-    for (std::size_t k = 0; k < N; ++k)
-    {
-      const auto& list = distances_[static_cast<std::size_t>(element.corners[k])];
-      next[k] = list.data();
-      end[k] = list.data() + list.size();
-    }
-    constexpr std::int32_t kNone = std::numeric_limits<std::int32_t>::max();
-    for (;;)
-    {
-      std::int32_t group = kNone;
-      for (std::size_t k = 0; k < N; ++k)
-      {
-        group = next[k] != end[k] ? std::min(group, next[k]->group) : group;
-      }
-      if (group == kNone)
-      {
-        return place;
-      }
-      std::array<double, N> corners;
-      for (std::size_t k = 0; k < N; ++k)
-      {
-        const bool isNear = next[k] != end[k] && next[k]->group == group;
-        corners[k] = isNear ? next[k]++->distance : std::numeric_limits<double>::infinity();
-      }
-      const double value = group == element.group ? 0.0 : distance(corners);
-      if (value < limit_)
-      {
-        place.distances.push_back({ group, value });
-      }
-    }
-  }
-
-  template <std::size_t N>
-  static void collect(const std::vector<GroupedElement<N>>& elements,
-    std::vector<std::vector<std::int32_t>>& groupsAtPoints)
-  {
-    for (const GroupedElement<N>& element : elements)
-    {
-      for (const std::int32_t corner : element.corners)
-      {
-        groupsAtPoints[static_cast<std::size_t>(corner)].push_back(element.group);
-      }
-    }
-  }
-
-  const GroupedElements& elements_;
-  double limit_;
-  std::vector<std::vector<GroupDistance>> distances_;
-};
-
-// Of a segment.
-int partsOf(const GroupedElement<2>& segment, const std::array<Vec3, 2>& ends)
-{
-  return partsOf((ends[1] - ends[0]).norm(),
-    kPieceLength * std::min(segment.reaches[0], segment.reaches[1]), kMostParts);
-}
-
-// Of an edge of a triangle.
-int partsOf(const GroupedElement<3>& triangle, const std::array<Vec3, 3>& corners)
-{
-  double longest = 0.0;
-  for (std::size_t k = 0; k < 3; ++k)
-  {
-    longest = std::max(longest, (corners[(k + 1) % 3] - corners[k]).norm());
-  }
-  return partsOf(longest,
-    kPieceSide * *std::min_element(triangle.reaches.begin(), triangle.reaches.end()), kMostSides);
-}
-
-// Of each element every corner has an equal part.
-std::vector<double> piecesAtPoints(const GroupedElements& elements)
-{
-  std::vector<double> pieces(elements.points.size(), 0.0);
-  const auto add = [&](const auto& element, double count)
-  {
-    for (const std::int32_t corner : element.corners)
-    {
-      pieces[static_cast<std::size_t>(corner)] += count / double(element.corners.size());
-    }
-  };
-  for (const GroupedElement<2>& segment : elements.segments)
-  {
-    add(segment, partsOf(segment, cornersOf(elements, segment)));
-  }
-  for (const GroupedElement<3>& triangle : elements.triangles)
-  {
-    const int sides = partsOf(triangle, cornersOf(elements, triangle));
-    add(triangle, double(sides) * sides);
-  }
-  return pieces;
-}
-
-void cut(const GroupedElements& elements, const GroupedElement<2>& segment,
-  const GraphPlaces& places, BlendPieces& pieces)
-{
-  const std::array<Vec3, 2> ends = cornersOf(elements, segment);
-  const int parts = partsOf(segment, ends);
-  const auto at = [&](double u) { return Weighted<2>{ { 1.0 - u, u } }; };
-  for (int k = 0; k < parts; ++k)
-  {
-    const Weighted<2> from = at(double(k) / parts);
-    const Weighted<2> to = at(double(k + 1) / parts);
-    pieces.segments.push_back(
-      makeSegmentElement(from(ends), to(ends), from(segment.reaches), to(segment.reaches)));
-    pieces.segmentPlaces.push_back(places.at(segment, at((k + 0.5) / parts)));
-  }
-}
-
-void cut(const GroupedElements& elements, const GroupedElement<3>& triangle,
-  const GraphPlaces& places, BlendPieces& pieces)
-{
-  const std::array<Vec3, 3> corners = cornersOf(elements, triangle);
-  const int sides = partsOf(triangle, corners);
-  const auto at = [&](double i, double j) {
-    return Weighted<3>{ { 1.0 - (i + j) / sides, i / sides, j / sides } };
-  };
-  const auto add = [&](int i, int j, int step)
-  {
-    const std::array<Weighted<3>, 3> where = { at(i, j), at(i + step, j), at(i, j + step) };
-    pieces.triangles.push_back(
-      makeTriangleElement({ where[0](corners), where[1](corners), where[2](corners) },
-        { where[0](triangle.reaches), where[1](triangle.reaches), where[2](triangle.reaches) }));
-    pieces.trianglePlaces.push_back(places.at(triangle, at(i + step / 3.0, j + step / 3.0)));
-  };
-  for (int j = 0; j < sides; ++j)
-  {
-    for (int i = 0; i + j < sides; ++i)
-    {
-      add(i, j, 1);
-      if (i + j + 1 < sides)
-      {
-        add(i + 1, j + 1, -1);
-      }
-    }
-  }
-}
-
-BlendPieces cutAll(const GroupedElements& elements, const GraphPlaces& places)
-{
-  BlendPieces pieces;
-  DistanceCount count;
-  const auto cutNext = [&](const auto& element, const std::vector<BlendPieces::Place>& made)
-  {
-    const std::size_t before = made.size();
-    cut(elements, element, places, pieces);
-    for (std::size_t k = before; k < made.size(); ++k)
-    {
-      count.add(made[k].distances.size());
-    }
-  };
-  for (const GroupedElement<2>& segment : elements.segments)
-  {
-    cutNext(segment, pieces.segmentPlaces);
-  }
-  for (const GroupedElement<3>& triangle : elements.triangles)
-  {
-    cutNext(triangle, pieces.trianglePlaces);
-  }
-  pieces.neighbours = places.neighbours();
-  return pieces;
-}
-
-// Where a compact kernel has a field.
-template <class Element>
-Box3 reachOf(const Element& element)
-{
-  const Vec3 reach = Vec3::Constant(largestReach(element));
-  const Box3 box = boundsOf(element);
-  return Box3(Vec3(box.min() - reach), Vec3(box.max() + reach));
-}
-
-template <typename Body>
-void forEachPiece(const BlendPieces& pieces, const Body& body)
-{
-  for (std::size_t k = 0; k < pieces.segments.size(); ++k)
-  {
-    body(pieces.segmentPlaces[k], reachOf(pieces.segments[k]));
-  }
-  for (std::size_t k = 0; k < pieces.triangles.size(); ++k)
-  {
-    body(pieces.trianglePlaces[k], reachOf(pieces.triangles[k]));
-  }
-}
-
-// Of each group once, ascending, the farthest.
-void keepFarthest(std::vector<BlendPieces::Meeting>& list)
-{
-  std::sort(list.begin(), list.end(),
-    [](const BlendPieces::Meeting& a, const BlendPieces::Meeting& b)
-    { return a.group != b.group ? a.group < b.group : a.farthest > b.farthest; });
-  list.erase(std::unique(list.begin(), list.end(),
-               [](const BlendPieces::Meeting& a, const BlendPieces::Meeting& b)
-               { return a.group == b.group; }),
-    list.end());
-}
-
-// The groups that pieces of each meet, with fields that have an end.
-std::vector<std::vector<BlendPieces::Meeting>> findMeetings(
-  const BlendPieces& pieces, double farthest)
-{
-  std::vector<Box3> reaches(pieces.neighbours.size());
-  forEachPiece(pieces,
-    [&](const BlendPieces::Place& place, const Box3& reach)
-    { reaches[static_cast<std::size_t>(place.group)].extend(reach); });
-  const ElementTree tree(reaches);
-  std::vector<std::vector<BlendPieces::Meeting>> lists(reaches.size());
-  std::vector<std::size_t> limits(reaches.size(), 256); // of the lists, so that they stay short
-  forEachPiece(pieces,
-    [&](const BlendPieces::Place& place, const Box3& reach)
-    {
-      const auto own = static_cast<std::size_t>(place.group);
-      if (lists[own].size() > limits[own])
-      {
-        keepFarthest(lists[own]);
-        limits[own] = std::max(limits[own], 2 * lists[own].size());
-      }
-      tree.visit(reach,
-        [&](std::uint32_t other)
-        {
-          const auto group = static_cast<std::int32_t>(other);
-          if (group != place.group)
-          {
-            lists[own].push_back({ group, false, place.from(group, farthest) });
-          }
-        });
-    });
-  for (std::size_t k = 0; k < lists.size(); ++k)
-  {
-    std::vector<BlendPieces::Meeting>& list = lists[k];
-    keepFarthest(list);
-    for (BlendPieces::Meeting& meeting : list)
-    {
-      const std::vector<std::int32_t>& neighbours = pieces.neighbours[k];
-      meeting.areNeighbours =
-        std::binary_search(neighbours.begin(), neighbours.end(), meeting.group);
-    }
-  }
-  return lists;
+  const double reach = std::sqrt(a.squaredRadius) + std::sqrt(b.squaredRadius);
+  return (a.center - b.center).squaredNorm() < reach * reach;
 }
 
 } // namespace
@@ -379,24 +74,295 @@ void validate(const BlendingControl& control)
   }
 }
 
-double BlendPieces::Place::from(std::int32_t other, double farthest) const
+// Rows of both tables, from the distances of one piece from the others.
+class BlendPieces::Relations
 {
-  if (other == group)
+public:
+  Relations(const BlendPieces& pieces, const PieceGraph& graph, const BlendingControl& control)
+    : pieces_(pieces)
+    , graph_(graph)
+    , share_(control)
+    , sight_(BlendingControl{ BlendingKind::Neighbours, kSightDistance })
+    , farthest_(std::max(share_.end(), sight_.end()))
   {
-    return 0.0;
+    if (pieces.isLocal())
+    {
+      std::vector<Box3> boxes;
+      boxes.reserve(pieces.size());
+      for (const Piece& piece : pieces.pieces_)
+      {
+        boxes.push_back(boxOf(piece.ball));
+      }
+      tree_ = ElementTree(boxes);
+    }
   }
-  const auto near = std::lower_bound(distances.begin(), distances.end(), other,
-    [](const GroupDistance& a, std::int32_t b) { return a.group < b; });
-  return near != distances.end() && near->group == other ? near->distance : farthest;
+
+  void fill(PieceTable& sights, PieceTable& shares) const
+  {
+    this->requireFew();
+    const std::size_t count = pieces_.size();
+    const std::size_t grain = std::max(kLeastGrain, count / kMostParts + 1);
+    std::vector<Part> parts((count + grain - 1) / grain);
+    std::atomic<std::size_t> total = 0;
+    parallelFor(count, grain,
+      [&](std::size_t begin, std::size_t end)
+      {
+        PieceGraph::Search search(graph_);
+        Part& part = parts[begin / grain];
+        this->addRows(search, begin, end, part);
+        if ((total += part.sights.size() + part.shares.size()) > kMostWeights)
+        {
+          refuse();
+        }
+      });
+    for (PieceTable* table : { &sights, &shares })
+    {
+      table->begin.reserve(count + 1);
+      table->begin.push_back(0);
+    }
+    for (const Part& part : parts)
+    {
+      append(part.sightEnds, part.sights, sights);
+      append(part.shareEnds, part.shares, shares);
+    }
+  }
+
+private:
+  // Rows of some pieces.
+  struct Part
+  {
+    std::vector<std::size_t> sightEnds, shareEnds;
+    std::vector<PieceWeight> sights, shares;
+  };
+
+  static void append(const std::vector<std::size_t>& ends, const std::vector<PieceWeight>& weights,
+    PieceTable& table)
+  {
+    const std::size_t before = table.weights.size();
+    for (const std::size_t end : ends)
+    {
+      table.begin.push_back(static_cast<std::uint32_t>(before + end));
+    }
+    table.weights.insert(table.weights.end(), weights.begin(), weights.end());
+  }
+
+  // From a sample, before any are kept.
+  void requireFew() const
+  {
+    const std::size_t count = pieces_.size();
+    if (2.0 * double(count) * double(count) <= double(kMostWeights))
+    {
+      return;
+    }
+    const std::size_t samples = std::min(kSamples, count);
+    PieceGraph::Search search(graph_);
+    Part part;
+    for (std::size_t k = 0; k < samples; ++k)
+    {
+      const std::size_t piece = k * count / samples;
+      this->addRows(search, piece, piece + 1, part);
+    }
+    const double found = double(part.sights.size() + part.shares.size());
+    if (found / double(samples) * double(count) > kClearly * double(kMostWeights))
+    {
+      refuse();
+    }
+  }
+
+  void addRows(PieceGraph::Search& search, std::size_t begin, std::size_t end, Part& part) const
+  {
+    std::vector<std::uint32_t> others;
+    for (std::size_t k = begin; k < end; ++k)
+    {
+      const auto piece = static_cast<std::uint32_t>(k);
+      search.run(piece, farthest_);
+      this->findOthers(search, piece, others);
+      for (const std::uint32_t other : others)
+      {
+        const double distance = search.distance(other);
+        const double sight = sight_(distance);
+        const double share = share_(distance);
+        const double counts = pieces_.isLocal() ? 1.0 - share : share;
+        if (sight > 0.0)
+        {
+          part.sights.push_back({ other, sight });
+        }
+        if (counts > 0.0)
+        {
+          part.shares.push_back({ other, counts });
+        }
+      }
+      part.sightEnds.push_back(part.sights.size());
+      part.shareEnds.push_back(part.shares.size());
+    }
+  }
+
+  // Ascending.
+  void findOthers(
+    const PieceGraph::Search& search, std::uint32_t piece, std::vector<std::uint32_t>& others) const
+  {
+    if (pieces_.isLocal())
+    {
+      others.clear();
+      const ElementBall& ball = pieces_[piece].ball;
+      tree_.visit(boxOf(ball),
+        [&](std::uint32_t other)
+        {
+          if (meet(ball, pieces_[other].ball))
+          {
+            others.push_back(other);
+          }
+        });
+    }
+    else
+    {
+      others = search.found();
+    }
+    std::sort(others.begin(), others.end());
+  }
+
+  const BlendPieces& pieces_;
+  const PieceGraph& graph_;
+  BlendShare share_;
+  BlendShare sight_;
+  double farthest_;
+  ElementTree tree_; // over the reaches of the pieces
+};
+
+BlendPieces::BlendPieces(
+  const GroupedElements& elements, const BlendingControl& control, const ConvolutionKernel& kernel)
+  : isLocal_(kernel.kind == KernelKind::Compact)
+{
+  CutPieces cut = cutIntoPieces(elements);
+  this->addPieces(cut, elements.groups.size());
+  if (!cut.areWhole)
+  {
+    elements_ = std::make_unique<const ConvolutionField>(kernel, cut.segments, cut.triangles);
+  }
+  if (!isLocal_)
+  {
+    this->findBounds(cut, kernel);
+  }
+  segmentPieces_ = std::move(cut.segmentPieces);
+  trianglePieces_ = std::move(cut.trianglePieces);
+  const PieceGraph graph(
+    std::move(cut.places), std::move(cut.contacts), std::move(cut.sides), elements.points);
+  Relations(*this, graph, control).fill(sights_, shares_);
+  shareGroups_.resize(elements.groups.size());
+  this->findGroups(shares_, shareGroups_);
+  if (!isLocal_)
+  {
+    sightGroups_.resize(elements.groups.size());
+    this->findGroups(sights_, sightGroups_);
+  }
 }
 
-BlendPieces makeBlendPieces(const GroupedElements& elements, const BlendingControl& control)
+void BlendPieces::addPieces(const CutPieces& cut, std::size_t groups)
 {
-  const BlendShare share(control);
-  requireFewDistances(elements, share.end(), piecesAtPoints(elements));
-  BlendPieces pieces = cutAll(elements, GraphPlaces(elements, share.end()));
-  pieces.meetings = findMeetings(pieces, share.farthest());
-  return pieces;
+  for (std::size_t k = 0; k < cut.places.size(); ++k)
+  {
+    pieces_.push_back({ cut.groups[k], cut.places[k].isTriangle, 0, 0, { Vec3::Zero(), 0.0 } });
+  }
+  const auto add = [&](const auto& elements, const std::vector<std::uint32_t>& of)
+  {
+    for (std::uint32_t k = 0; k < elements.size(); ++k)
+    {
+      Piece& piece = pieces_[of[k]];
+      const bool isFirst = piece.end == 0;
+      piece.begin = isFirst ? k : piece.begin;
+      piece.end = k + 1;
+      piece.ball = isFirst ? elements[k].ball : around(piece.ball, elements[k].ball);
+    }
+  };
+  add(cut.segments, cut.segmentPieces);
+  add(cut.triangles, cut.trianglePieces);
+  for (const Piece& piece : pieces_)
+  {
+    (piece.isTriangle ? trianglesBegin_ : segmentsBegin_).push_back(piece.begin);
+  }
+  segmentsBegin_.push_back(static_cast<std::uint32_t>(cut.segments.size()));
+  trianglesBegin_.push_back(static_cast<std::uint32_t>(cut.triangles.size()));
+  groupBegin_.assign(groups, 0);
+  groupEnd_.assign(groups, 0);
+  for (std::uint32_t k = 0; k < pieces_.size(); ++k)
+  {
+    const auto group = static_cast<std::size_t>(pieces_[k].group);
+    groupBegin_[group] = groupEnd_[group] == 0 ? k : groupBegin_[group];
+    groupEnd_[group] = k + 1;
+  }
+}
+
+void BlendPieces::findBounds(const CutPieces& cut, const ConvolutionKernel& kernel)
+{
+  if (elements_)
+  {
+    elements_->select(elements_->influenceBounds(), all_);
+  }
+  std::vector<CauchyBound> bounds(pieces_.size());
+  const auto add = [&](const auto& elements, const std::vector<std::uint32_t>& of)
+  {
+    for (std::size_t k = 0; k < elements.size(); ++k)
+    {
+      bounds[of[k]].add(elements[k], kernel);
+    }
+  };
+  add(cut.segments, cut.segmentPieces);
+  add(cut.triangles, cut.trianglePieces);
+  for (const CauchyBound& of : bounds)
+  {
+    meanReach_ += of.largestReach() / double(bounds.size());
+  }
+  const std::size_t size = this->boundsSize();
+  bounds_.assign(7 * size, 0.0);
+  for (std::size_t k = 0; k < bounds.size(); ++k)
+  {
+    const CauchyBound& of = bounds[k];
+    const Vec3 center = of.box().center();
+    const std::array<double, 7> row = { center.x(), center.y(), center.z(),
+      0.5 * of.box().diagonal().norm(), 1.0 / of.largestReach(), of.measure(), of.slope() };
+    for (std::size_t r = 0; r < row.size(); ++r)
+    {
+      bounds_[r * size + k] = row[r];
+    }
+  }
+}
+
+std::size_t BlendPieces::boundsSize() const
+{
+  return (pieces_.size() + kRowStep - 1) / kRowStep * kRowStep;
+}
+
+FarBounds BlendPieces::bounds() const
+{
+  const std::size_t size = this->boundsSize();
+  const auto row = [&](std::size_t k) { return bounds_.data() + k * size; };
+  return { size, row(0), row(1), row(2), row(3), row(4), row(5), row(6) };
+}
+
+void BlendPieces::findGroups(
+  const PieceTable& table, std::vector<std::vector<std::int32_t>>& lists) const
+{
+  std::vector<std::size_t> metBy(lists.size(), lists.size());
+  for (std::size_t group = 0; group < lists.size(); ++group)
+  {
+    const std::uint32_t end = table.begin[groupEnd_[group]];
+    for (std::uint32_t k = table.begin[groupBegin_[group]]; k < end; ++k)
+    {
+      const std::int32_t other = pieces_[table.weights[k].piece].group;
+      if (std::exchange(metBy[static_cast<std::size_t>(other)], group) != group)
+      {
+        lists[group].push_back(other);
+      }
+    }
+    std::sort(lists[group].begin(), lists[group].end());
+  }
+}
+
+double BlendPieces::meanNear() const
+{
+  // Those that are seen and those that do not blend are others; of the rest there are few.
+  return double(sights_.weights.size() + (isLocal_ ? shares_.weights.size() : 0)) /
+    double(std::max<std::size_t>(1, pieces_.size()));
 }
 
 } // namespace hybridtree

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/convolution/ConvolutionField.h"
+#include "core/convolution/PieceWeights.h"
 
 #include <vector>
 
@@ -11,8 +12,7 @@ namespace hybridtree
 /// What the field in a box is made of.
 struct BlendSelection
 {
-  /// A group, or several that blend fully with whatever is in reach: elements in a row of `all`,
-  /// from where those of the unit before end.
+  /// Of one group: elements in a row of `all`, from where those of the unit before end.
   struct Unit
   {
     std::size_t segmentsEnd;
@@ -24,16 +24,34 @@ struct BlendSelection
     std::size_t unit;
   };
 
-  ElementSelection all; ///< all elements that reach the box
-  /// Not everything adds up. Without units nothing more is known.
-  bool isControlled = false;
+  /// The pieces that reach the box, by numbers of their own, and what they are to each other
+  /// (LimbMeans.h).
+  struct Limbs
+  {
+    std::vector<const SegmentElement*> segments;
+    std::vector<const TriangleElement*> triangles;
+    std::size_t ofSegments; ///< pieces; the others are of triangles
+    ///@{
+    /// Per piece, of its kind: its first element; and the first behind the last.
+    std::vector<std::uint32_t> segmentsBegin;
+    std::vector<std::uint32_t> trianglesBegin;
+    ///@}
+    std::vector<std::uint32_t> pieces; ///< their numbers among all
+    ///@{
+    /// Sparse matrices: rows begin, and weights.
+    std::vector<std::uint32_t> sightsBegin, sharesBegin;
+    std::vector<PieceWeight> sights, shares;
+    ///@}
+  };
+
+  ElementSelection all;      ///< all elements that reach the box
+  bool isControlled = false; ///< not everything adds up
+  ///@{
+  /// With BlendingKind::Paper: groups that reach the box.
   std::vector<Unit> units;
-  std::vector<Group> groups; ///< that reach the box, with their units
-  bool hasRest;              ///< unit 0 is not a single group: it is apart from none
-  /// Row by row of units x units: how far places on the first that reach the second are from it at
-  /// most; for the rest, places on any of its groups or the distance from any.
-  std::vector<double> farthest;
-  std::vector<char> areUnjoined; ///< the same, symmetric: no sum has both, and they meet
+  std::vector<Group> groups;
+  ///@}
+  Limbs limbs; ///< with BlendingKind::Neighbours where isControlled and fields end
 
   bool empty() const { return all.empty(); }
   ElementSpans elementsOf(std::size_t unit) const

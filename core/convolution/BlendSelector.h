@@ -7,12 +7,8 @@
 namespace hybridtree
 {
 
-/// Which groups may be apart among those of selection.all: sets the rest of `selection`, and sorts
-/// these elements by units.
-void selectBlends(const BlendGroups& groups, BlendSelection& selection);
-
-/// The same where any two groups may be apart: each is a unit. Sets all but farthest and
-/// areUnjoined.
+/// Sorts the elements of selection.all by groups, each of them a unit: sets selection.units and
+/// selection.groups.
 void selectGroups(const ElementGroups& groups, BlendSelection& selection);
 
 } // namespace hybridtree

@@ -3,9 +3,7 @@
 
 #include "core/base/Scratch.h"
 #include "core/convolution/BlendSelector.h"
-#include "core/convolution/BlendSums.h"
-#include "core/convolution/FarBlends.h"
-#include "core/convolution/OwnBlend.h"
+#include "core/convolution/LimbMeans.h"
 
 #include <algorithm>
 #include <array>
@@ -108,44 +106,11 @@ private:
   ScratchVectors gradient_;
 };
 
-std::vector<FarGroup> farGroups(
-  const ConvolutionField& pieces, const BlendPieces& places, double farthest)
-{
-  std::vector<FarGroup> groups(places.neighbours.size());
-  ElementSelection all;
-  pieces.select(pieces.influenceBounds(), all);
-  const auto add = [&](const auto* element, const BlendPieces::Place& place, auto list)
-  {
-    FarGroup& group = groups[static_cast<std::size_t>(place.group)];
-    (group.*list).push_back(element);
-    group.places.push_back(&place);
-    group.bound.add(*element, pieces.kernel());
-  };
-  for (const SegmentElement* segment : all.segments)
-  {
-    add(segment, places.segmentPlaces[pieces.index(segment)], &FarGroup::segments);
-  }
-  for (const TriangleElement* triangle : all.triangles)
-  {
-    add(triangle, places.trianglePlaces[pieces.index(triangle)], &FarGroup::triangles);
-  }
-  for (std::size_t k = 0; k < groups.size(); ++k)
-  {
-    FarGroup& group = groups[k];
-    group.members = places.neighbours[k];
-    const auto own = static_cast<std::int32_t>(k);
-    group.members.insert(std::upper_bound(group.members.begin(), group.members.end(), own), own);
-    group.findNear(farthest);
-  }
-  return groups;
-}
-
 } // namespace
 
 BlendedField::BlendedField(
   const ConvolutionKernel& kernel, const BlendingControl& control, const GroupedElements& elements)
-  : control_(control)
-  , whole_(kernel, segmentsOf(elements), trianglesOf(elements))
+  : whole_(kernel, segmentsOf(elements), trianglesOf(elements))
   , partSize_(std::accumulate(elements.reaches.begin(), elements.reaches.end(), 0.0) /
       static_cast<double>(std::max<std::size_t>(1, elements.reaches.size())))
   , segmentGroups_(groupsOf(elements.segments))
@@ -158,26 +123,16 @@ BlendedField::BlendedField(
   }
   if (control.kind == BlendingKind::Neighbours)
   {
-    places_ = makeBlendPieces(elements, control);
-    pieces_ = std::make_unique<const ConvolutionField>(kernel, places_.segments, places_.triangles);
-    places_.segments = {};
-    places_.triangles = {};
-    if (kernel.kind == KernelKind::Cauchy)
-    {
-      farGroups_ = farGroups(*pieces_, places_, BlendShare(control).farthest());
-    }
+    pieces_ = std::make_unique<const BlendPieces>(elements, control, kernel);
   }
 }
 
+BlendedField::BlendedField(BlendedField&&) noexcept = default;
+BlendedField::~BlendedField() = default;
+
 double BlendedField::meanNeighbours() const
 {
-  std::size_t count = 0;
-  for (const std::vector<std::int32_t>& others : places_.neighbours)
-  {
-    count += others.size();
-  }
-  return static_cast<double>(count) /
-    static_cast<double>(std::max<std::size_t>(1, places_.neighbours.size()));
+  return pieces_ ? pieces_->meanNear() : 0.0;
 }
 
 ElementGroups BlendedField::elementGroups() const
@@ -185,9 +140,9 @@ ElementGroups BlendedField::elementGroups() const
   return { whole_, segmentGroups_, triangleGroups_, groupCount_ };
 }
 
-BlendGroups BlendedField::groups() const
+LimbMeans BlendedField::limbs() const
 {
-  return { control_, whole_, this->elementGroups(), *pieces_, places_, farGroups_ };
+  return LimbMeans(whole_, this->elementGroups(), *pieces_);
 }
 
 void BlendedField::select(const Box3& box, BlendSelection& selection) const
@@ -196,10 +151,11 @@ void BlendedField::select(const Box3& box, BlendSelection& selection) const
   selection.isControlled = false;
   if (pieces_)
   {
-    selectBlends(this->groups(), selection);
+    this->limbs().select(box, selection);
   }
-  if (paper_)
+  if (paper_ && !selection.all.empty())
   {
+    selection.isControlled = true;
     selectGroups(this->elementGroups(), selection);
   }
 }
@@ -213,57 +169,14 @@ void BlendedField::sumControlled(const BlendSelection& selection, PointBatch poi
   }
   else
   {
-    sumBlends(this->groups(), selection, points, value, gradient);
+    this->limbs().evaluate(selection, points, value, gradient);
   }
 }
 
-void BlendedField::ownBlend(std::int32_t group, const BlendSelection* selection, PointBatch points,
-  double* value, const VectorBatch* gradient) const
+void BlendedField::ownSum(
+  std::int32_t group, PointBatch points, double* value, const VectorBatch* gradient) const
 {
-  const BlendGroups groups = this->groups();
-  if (!groups.isLocal())
-  {
-    ownFarBlend(groups, group, points, value, gradient);
-  }
-  else if (!selection)
-  {
-    Box3 box;
-    for (std::size_t k = 0; k < points.size; ++k)
-    {
-      box.extend(points[k]);
-    }
-    hybridtree::ownBlend(PiecesNear(groups, box), group, points, value, gradient);
-  }
-  else if (selection->isControlled)
-  {
-    sumBlends(groups, *selection, points, value, gradient, group);
-  }
-  else
-  {
-    std::fill_n(value, points.size, 0.0);
-    if (gradient)
-    {
-      clear(points.size, value, *gradient);
-      whole_.addFieldAndGradient(selection->all, points, value, *gradient);
-    }
-    else
-    {
-      whole_.addField(selection->all, points, value);
-    }
-  }
-}
-
-void BlendedField::ownSum(std::int32_t group, const BlendSelection* selection, PointBatch points,
-  double* value, const VectorBatch* gradient) const
-{
-  if (paper_)
-  {
-    paper_->evaluate(group, this->kernel(), points, value, gradient);
-  }
-  else
-  {
-    this->ownBlend(group, selection, points, value, gradient);
-  }
+  paper_->evaluate(group, this->kernel(), points, value, gradient);
   if (this->kernel().kind == KernelKind::Cauchy)
   {
     fade(points.size, value, gradient);
@@ -397,65 +310,32 @@ void BlendedField::addFieldAndGradient(
   }
 }
 
-// Of the length of the gradient; 0 where the field is the sum. See BlendMixture.cpp for the
-// gradient: the s_j (d(c, j) - D_j) are at most alpha' f_j / F times the largest distance, and the
-// f_j add up to F.
-double BlendedField::mixedSlope(const BlendSelection& selection, const Box3& box) const
+// From its slope.
+Interval BlendedField::paperRange(const BlendSelection& selection, const Box3& box) const
 {
-  const BlendShare share(control_);
-  if (selection.units.empty())
+  const Interval sum = whole_.range(selection.all, box);
+  if (sum.max <= 0.0)
   {
-    FieldBounds all;
-    whole_.addBounds(selection.all, box, all);
-    return (1.0 + BlendShare::kSteepest * share.farthest()) * all.slope;
+    return sum;
   }
   std::vector<FieldBounds> bounds(selection.units.size());
-  double slope = 0.0;
   for (std::size_t unit = 0; unit < bounds.size(); ++unit)
   {
     whole_.addBounds(selection.elementsOf(unit), box, bounds[unit]);
-    slope += bounds[unit].slope;
-  }
-  if (paper_)
-  {
-    return paper_->slope(selection, bounds);
-  }
-  double distance = 0.0;
-  for (std::size_t a = selection.hasRest ? 1 : 0; a < bounds.size(); ++a)
-  {
-    for (std::size_t b = a + 1; bounds[a].value > 0.0 && b < bounds.size(); ++b)
-    {
-      const double between = std::max(
-        selection.farthest[a * bounds.size() + b], selection.farthest[b * bounds.size() + a]);
-      if (between > share.begin() && bounds[b].value > 0.0)
-      {
-        distance = std::max(distance, between);
-      }
-    }
-  }
-  return distance > 0.0 ? (1.0 + BlendShare::kSteepest * distance) * slope : 0.0;
-}
-
-Interval BlendedField::mixedRange(const BlendSelection& selection, const Box3& box) const
-{
-  const Interval sum = whole_.range(selection.all, box);
-  const double slope = sum.max > 0.0 ? this->mixedSlope(selection, box) : 0.0;
-  if (slope == 0.0)
-  {
-    return sum;
   }
   const Vec3 p = box.center();
   double center;
   this->sumControlled(selection, { &p.x(), &p.y(), &p.z(), 1 }, &center, nullptr);
-  const double most = 0.5 * slope * box.diagonal().norm();
+  const double most = 0.5 * paper_->slope(selection, bounds) * box.diagonal().norm();
   const double rounding = 1e-13 * (1.0 + sum.max);
   return { std::max(0.0, center - most - rounding), std::min(sum.max, center + most + rounding) };
 }
 
 Interval BlendedField::range(const BlendSelection& selection, const Box3& box) const
 {
-  const Interval range =
-    selection.isControlled ? this->mixedRange(selection, box) : whole_.range(selection.all, box);
+  const Interval range = !selection.isControlled ? whole_.range(selection.all, box)
+    : paper_                                     ? this->paperRange(selection, box)
+                                                 : this->limbs().range(selection, box);
   return this->kernel().kind == KernelKind::Cauchy ? Interval{ faded(range.min), faded(range.max) }
                                                    : range;
 }

@@ -4,8 +4,8 @@
 namespace hybridtree
 {
 
-/// Which coarse elements of a skeleton add their fields up ([SUB] 5). The others are united: the
-/// largest field counts.
+/// Which parts of a skeleton add their fields up ([SUB] 5). The others are united: the stronger
+/// field counts.
 enum class BlendingKind
 {
   All,        ///< every element with every other
@@ -16,8 +16,8 @@ enum class BlendingKind
 struct BlendingControl
 {
   BlendingKind kind = BlendingKind::All;
-  /// Neighbours: up to which distance along the skeleton, in units of R, elements blend fully. From
-  /// there their share falls to 0 over one R.
+  /// Neighbours: up to which distance along the skeleton, in units of R, places on it blend fully.
+  /// From there their share falls to 0 over one R.
   /// The default is more than the way between two places of a gentle skeleton that reach one point,
   /// which is 2.
   double distance = 2.25;
@@ -38,9 +38,6 @@ public:
 
   double begin() const { return begin_; } ///< last distance with the share 1
   double end() const { return end_; }     ///< first with the share 0
-  /// What counts as the distance of what is farther than end(): so far that a place half there and
-  /// half here does not blend with it.
-  double farthest() const { return 2.0 * end_; }
 
   double operator()(double distance) const
   {

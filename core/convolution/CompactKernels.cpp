@@ -347,11 +347,11 @@ struct CompactSums
         ElementSums<Element, Integral<n()>>::addWithGradient(span, kernel, points, sum, gradient);
       });
   }
-  static void rows(ElementSpan<Element> span, const ConvolutionKernel& kernel, PointBatch points,
-    const ElementRows& to)
+  static void rows(const PieceElements<Element>& pieces, const ConvolutionKernel& kernel,
+    PointBatch points, const ElementRows& to)
   {
-    withExponent(
-      kernel, [&](auto n) { ElementSums<Element, Integral<n()>>::rows(span, kernel, points, to); });
+    withExponent(kernel,
+      [&](auto n) { ElementSums<Element, Integral<n()>>::rows(pieces, kernel, points, to); });
   }
 };
 

@@ -220,10 +220,10 @@ void ConvolutionField::addBounds(
   std::for_each_n(elements.triangles.elements, elements.triangles.count, add);
 }
 
-Interval ConvolutionField::range(const ElementSelection& selection, const Box3& box) const
+Interval ConvolutionField::range(const ElementSpans& elements, const Box3& box) const
 {
   FieldBounds bounds;
-  this->addBounds(selection, box, bounds);
+  this->addBounds(elements, box, bounds);
   if (bounds.value == 0.0)
   {
     return {};
@@ -232,7 +232,7 @@ Interval ConvolutionField::range(const ElementSelection& selection, const Box3& 
   Vec3 slope = Vec3::Zero();
   const Vec3 p = box.center();
   this->addFieldAndGradient(
-    selection, { &p.x(), &p.y(), &p.z(), 1 }, &center, { &slope.x(), &slope.y(), &slope.z() });
+    elements, { &p.x(), &p.y(), &p.z(), 1 }, &center, { &slope.x(), &slope.y(), &slope.z() });
   const double radius = 0.5 * box.diagonal().norm();
   const double linear = 0.5 * slope.cwiseAbs().dot(box.sizes());
   const double most =

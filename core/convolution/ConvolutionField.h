@@ -55,6 +55,12 @@ public:
   std::size_t index(const TriangleElement* triangle) const;
   ///@}
 
+  ///@{
+  /// The other way.
+  const SegmentElement& segment(std::size_t k) const { return segments_[k]; }
+  const TriangleElement& triangle(std::size_t k) const { return triangles_[k]; }
+  ///@}
+
   void addField(const ElementSpans& elements, PointBatch points, double* sum) const;
   void addFieldAndGradient(
     const ElementSpans& elements, PointBatch points, double* sum, VectorBatch gradientSum) const;
@@ -63,7 +69,7 @@ public:
   void addBounds(const ElementSpans& elements, const Box3& box, FieldBounds& bounds) const;
 
   /// Bounds of the field in a box. \pre the selection is that of the box or of a larger one.
-  Interval range(const ElementSelection& selection, const Box3& box) const;
+  Interval range(const ElementSpans& elements, const Box3& box) const;
 
 private:
   // How far from the elements a field of a kernel without end is above kFadeEnd.

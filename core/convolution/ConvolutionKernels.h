@@ -5,6 +5,7 @@
 #include "core/convolution/ConvolutionKernel.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace hybridtree
@@ -28,8 +29,17 @@ struct SharedElements
   double offset;
 };
 
-/// Where the fields of single elements go: a row of values per element, and behind it the three of
-/// the gradient where there are any.
+/// Elements in pieces: those of piece k from begin[k] to begin[k + 1].
+template <class Element>
+struct PieceElements
+{
+  const Element* const* elements;
+  const std::uint32_t* begin;
+  std::size_t count; ///< of pieces
+};
+
+/// Where the fields of single pieces go: a row of values per piece, and behind it the three of the
+/// gradient where there are any.
 struct ElementRows
 {
   double* first;
@@ -40,9 +50,9 @@ struct ElementRows
 /// Points of a batch for ElementRows are a multiple of this.
 inline constexpr std::size_t kRowStep = 8;
 
-/// Batched closed-form integrals over elements: their sums, or each by itself. A value depends on
-/// its point alone, not on its place in the batch; it is exactly 0 beyond the reach of a compact
-/// kernel. Gradients are exact.
+/// Batched closed-form integrals over elements: their sums, or those of each piece by itself. A
+/// value depends on its point alone, not on its place in the batch; it is exactly 0 beyond the
+/// reach of a compact kernel. Gradients are exact.
 struct ConvolutionKernels
 {
   void (*addSegments)(
@@ -50,13 +60,13 @@ struct ConvolutionKernels
   void (*addSegmentsWithGradient)(ElementSpan<SegmentElement>, const ConvolutionKernel&, PointBatch,
     double* sum, VectorBatch gradientSum);
   void (*segmentRows)(
-    ElementSpan<SegmentElement>, const ConvolutionKernel&, PointBatch, const ElementRows&);
+    const PieceElements<SegmentElement>&, const ConvolutionKernel&, PointBatch, const ElementRows&);
   void (*addTriangles)(
     ElementSpan<TriangleElement>, const ConvolutionKernel&, PointBatch, double* sum);
   void (*addTrianglesWithGradient)(ElementSpan<TriangleElement>, const ConvolutionKernel&,
     PointBatch, double* sum, VectorBatch gradientSum);
-  void (*triangleRows)(
-    ElementSpan<TriangleElement>, const ConvolutionKernel&, PointBatch, const ElementRows&);
+  void (*triangleRows)(const PieceElements<TriangleElement>&, const ConvolutionKernel&, PointBatch,
+    const ElementRows&);
   /// \pre the lists of the next two are not empty.
   void (*addShared)(
     const std::vector<SharedElements>&, const ConvolutionKernel&, PointBatch, double* sum);

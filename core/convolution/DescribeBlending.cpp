@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What sums of neighbours depend on besides the elements that reach a place.
+#include "core/convolution/BlendPieces.h"
 #include "core/convolution/BlendedField.h"
-
-#include <algorithm>
 
 namespace hybridtree
 {
@@ -22,75 +21,6 @@ void addNumbers(const Element& element, Contents& contents)
     contents.add(number);
   }
 }
-
-template <class Element>
-std::vector<const Element*> unique(std::vector<const Element*> elements)
-{
-  std::sort(elements.begin(), elements.end());
-  elements.erase(std::unique(elements.begin(), elements.end()), elements.end());
-  return elements;
-}
-
-/// Distances from the groups that are met at all.
-class Describer
-{
-public:
-  Describer(std::size_t groups, Contents& contents) : isMet_(groups, 0), contents_(contents) {}
-
-  void meet(std::int32_t group) { isMet_[static_cast<std::size_t>(group)] = 1; }
-
-  const std::vector<char>& met() const { return isMet_; }
-
-  void addDistances(const std::vector<GroupDistance>& distances)
-  {
-    for (const auto& [group, distance] : distances)
-    {
-      if (isMet_[static_cast<std::size_t>(group)])
-      {
-        contents_.add(group);
-        contents_.add(distance);
-      }
-    }
-    contents_.add(std::int32_t(-1));
-  }
-
-  void addGroups(const BlendPieces& places)
-  {
-    for (std::size_t group = 0; group < isMet_.size(); ++group)
-    {
-      if (!isMet_[group])
-      {
-        continue;
-      }
-      contents_.add(static_cast<std::uint64_t>(group));
-      for (const std::int32_t other : places.neighbours[group])
-      {
-        if (isMet_[static_cast<std::size_t>(other)])
-        {
-          contents_.add(other);
-        }
-      }
-      this->addMeetings(places.meetings[group]);
-    }
-  }
-
-private:
-  void addMeetings(const std::vector<BlendPieces::Meeting>& meetings)
-  {
-    for (const BlendPieces::Meeting& meeting : meetings)
-    {
-      if (isMet_[static_cast<std::size_t>(meeting.group)])
-      {
-        contents_.add(meeting.group);
-        contents_.add(meeting.farthest);
-      }
-    }
-    contents_.add(std::int32_t(-1));
-  }
-
-  std::vector<char> isMet_;
-  Contents& contents_;
-};
 
 } // namespace
 
@@ -119,65 +49,80 @@ void PaperSums::describe(const std::vector<char>& isMet, Contents& contents) con
   }
 }
 
+// Pieces by the order in which they come here, so that it does not matter how many there are
+// elsewhere.
+void BlendPieces::describe(
+  const std::vector<char>& isMet, const ConvolutionField& whole, Contents& contents) const
+{
+  const ConvolutionField& elements = elements_ ? *elements_ : whole;
+  std::vector<std::int32_t> numbers(this->size(), -1);
+  std::int32_t count = 0;
+  for (std::size_t k = 0; k < this->size(); ++k)
+  {
+    numbers[k] = isMet[k] ? count++ : -1;
+  }
+  const auto addRow = [&](const PieceTable& table, std::size_t piece)
+  {
+    for (std::uint32_t k = table.begin[piece]; k < table.begin[piece + 1]; ++k)
+    {
+      if (isMet[table.weights[k].piece])
+      {
+        contents.add(numbers[table.weights[k].piece]);
+        contents.add(table.weights[k].weight);
+      }
+    }
+    contents.add(std::int32_t(-1));
+  };
+  for (std::size_t k = 0; k < this->size(); ++k)
+  {
+    if (!isMet[k])
+    {
+      continue;
+    }
+    const Piece& piece = pieces_[k];
+    contents.add(piece.group);
+    for (std::size_t element = piece.begin; element < piece.end; ++element)
+    {
+      piece.isTriangle ? addNumbers(elements.triangle(element), contents)
+                       : addNumbers(elements.segment(element), contents);
+    }
+    addRow(sights_, k);
+    addRow(shares_, k);
+  }
+}
+
 void BlendedField::describeBlending(const std::vector<Box3>& boxes, Contents& contents) const
 {
   if (!pieces_ && !paper_)
   {
     return;
   }
-  ElementSelection all;
+  contents.add(partSize_); // by which points are asked for together
+  const ConvolutionField& elements = pieces_ && pieces_->elements() ? *pieces_->elements() : whole_;
+  std::vector<char> isMet(pieces_ ? pieces_->size() : groupCount_, 0);
   ElementSelection reaching;
-  Describer describer(groupCount_, contents);
   for (const Box3& box : boxes)
   {
-    whole_.select(box, reaching);
+    elements.select(box, reaching);
     for (const SegmentElement* segment : reaching.segments)
     {
-      describer.meet(segmentGroups_[whole_.index(segment)]);
+      const std::size_t k = elements.index(segment);
+      isMet[pieces_ ? pieces_->ofSegment(k) : static_cast<std::size_t>(segmentGroups_[k])] = 1;
     }
     for (const TriangleElement* triangle : reaching.triangles)
     {
-      describer.meet(triangleGroups_[whole_.index(triangle)]);
+      const std::size_t k = elements.index(triangle);
+      isMet[pieces_ ? pieces_->ofTriangle(k) : static_cast<std::size_t>(triangleGroups_[k])] = 1;
     }
-    if (paper_)
-    {
-      continue;
-    }
-    pieces_->select(box, reaching);
-    all.segments.insert(all.segments.end(), reaching.segments.begin(), reaching.segments.end());
-    all.triangles.insert(all.triangles.end(), reaching.triangles.begin(), reaching.triangles.end());
   }
-  contents.add(partSize_); // by which points are asked for together
   if (paper_)
   {
-    paper_->describe(describer.met(), contents);
-    return;
+    paper_->describe(isMet, contents);
   }
-  const std::vector<const SegmentElement*> segments = unique(std::move(all.segments));
-  const std::vector<const TriangleElement*> triangles = unique(std::move(all.triangles));
-  const auto placeOf = [&](const auto* element,
-                         const std::vector<BlendPieces::Place>& places) -> const BlendPieces::Place&
-  { return places[pieces_->index(element)]; };
-  const auto forEachPiece = [&](const auto& body)
+  else
   {
-    for (const SegmentElement* segment : segments)
-    {
-      body(*segment, placeOf(segment, places_.segmentPlaces));
-    }
-    for (const TriangleElement* triangle : triangles)
-    {
-      body(*triangle, placeOf(triangle, places_.trianglePlaces));
-    }
-  };
-  forEachPiece([&](const auto&, const BlendPieces::Place& place) { describer.meet(place.group); });
-  describer.addGroups(places_);
-  forEachPiece(
-    [&](const auto& element, const BlendPieces::Place& place)
-    {
-      contents.add(place.group);
-      addNumbers(element, contents);
-      describer.addDistances(place.distances);
-    });
+    pieces_->describe(isMet, whole_, contents);
+  }
 }
 
 } // namespace hybridtree

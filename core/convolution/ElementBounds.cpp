@@ -236,14 +236,4 @@ void CauchyBound::add(const TriangleElement& element, const ConvolutionKernel& k
   slope_ = std::max(slope_, element.slope);
 }
 
-double CauchyBound::distanceTo(const Box3& points) const
-{
-  return box_.exteriorDistance(points);
-}
-
-double CauchyBound::most(double distance) const
-{
-  return measure_ * mostOfCauchy(slope_, distance / reach_);
-}
-
 } // namespace hybridtree

@@ -33,7 +33,8 @@ void addBounds(const TriangleElement& element, const ConvolutionKernel& kernel, 
   FieldBounds& bounds);
 ///@}
 
-/// The same of the value of many elements with the Cauchy kernel, coarser: from their bounding box.
+/// The same of the value of some elements with the Cauchy kernel, coarser: all from their bounding
+/// box at once (LimbKernels.h).
 class CauchyBound
 {
 public:
@@ -43,14 +44,14 @@ public:
   ///@}
 
   double largestReach() const { return reach_; }
-  double distanceTo(const Box3& points) const;
-  /// Of the sum of the fields at points at least `distance` away.
-  double most(double distance) const;
+  const Box3& box() const { return box_; }
+  double measure() const { return measure_; } ///< sum of measures times amplitudes
+  double slope() const { return slope_; }     ///< the largest
 
 private:
   Box3 box_;
   double reach_ = 0.0;
-  double measure_ = 0.0; // times amplitudes
+  double measure_ = 0.0;
   double slope_ = 0.0;
 };
 

@@ -92,16 +92,16 @@ struct Sample
 template <class Element, class Integral>
 struct ElementSums
 {
-  static void rows(ElementSpan<Element> span, const ConvolutionKernel& kernel, PointBatch points,
-    const ElementRows& to)
+  static void rows(const PieceElements<Element>& pieces, const ConvolutionKernel& kernel,
+    PointBatch points, const ElementRows& to)
   {
     if (to.haveGradients)
     {
-      fillRows<4>(span, kernel, points, to);
+      fillRows<4>(pieces, kernel, points, to);
     }
     else
     {
-      fillRows<1>(span, kernel, points, to);
+      fillRows<1>(pieces, kernel, points, to);
     }
   }
   static void add(
@@ -121,7 +121,7 @@ struct ElementSums
 
 private:
   template <std::size_t Rows>
-  static void fillRows(ElementSpan<Element> span, const ConvolutionKernel& kernel,
+  static void fillRows(const PieceElements<Element>& pieces, const ConvolutionKernel& kernel,
     PointBatch points, const ElementRows& to)
   {
     const D d;
@@ -133,17 +133,20 @@ private:
       const V y = hn::LoadU(d, points.y + at);
       const V z = hn::LoadU(d, points.z + at);
       double* row = to.first + at;
-      for (std::size_t k = 0; k < span.count; ++k)
+      for (std::size_t piece = 0; piece < pieces.count; ++piece)
       {
         Sample<Rows> sample;
-        if constexpr (Rows == 1)
+        for (std::uint32_t k = pieces.begin[piece]; k < pieces.begin[piece + 1]; ++k)
         {
-          integral.add(*span.elements[k], x, y, z, sample.rows[0]);
-        }
-        else
-        {
-          integral.addWithGradient(*span.elements[k], x, y, z, sample.rows[0], sample.rows[1],
-            sample.rows[2], sample.rows[3]);
+          if constexpr (Rows == 1)
+          {
+            integral.add(*pieces.elements[k], x, y, z, sample.rows[0]);
+          }
+          else
+          {
+            integral.addWithGradient(*pieces.elements[k], x, y, z, sample.rows[0], sample.rows[1],
+              sample.rows[2], sample.rows[3]);
+          }
         }
         for (std::size_t r = 0; r < Rows; ++r, row += to.stride)
         {

@@ -52,7 +52,7 @@ struct SkeletonElementFields::Surroundings
 
 SkeletonElementFields::SkeletonElementFields(const SubdivisionSkeleton& leaf, Sums sums)
   : leaf_(leaf)
-  , haveOwnSums_(sums == Sums::Own && leaf.options().blending.kind != BlendingKind::All)
+  , haveOwnSums_(sums == Sums::Own && leaf.options().blending.kind == BlendingKind::Paper)
 {
   const SkeletonGraph& coarse = leaf.coarse();
   surroundings_.reset(new Surroundings[coarse.segments.size() + coarse.triangles.size()]);
@@ -76,9 +76,9 @@ const SkeletonElementFields::Surroundings& SkeletonElementFields::surroundings(
 void SkeletonElementFields::evaluate(
   std::int32_t element, PointBatch points, double* value, const VectorBatch* gradient) const
 {
-  if (leaf_.options().blending.kind == BlendingKind::Paper && haveOwnSums_)
+  if (haveOwnSums_)
   {
-    leaf_.convolution().ownSum(element, nullptr, points, value, gradient); // looks nowhere else
+    leaf_.convolution().ownSum(element, points, value, gradient); // looks nowhere else
     return;
   }
   const Surroundings& near = this->surroundings(element);
@@ -88,11 +88,6 @@ void SkeletonElementFields::evaluate(
     isInside = isInside && near.box.contains(points[k]);
   }
   const BlendSelection* selection = isInside ? &near.selection : nullptr;
-  if (haveOwnSums_)
-  {
-    leaf_.convolution().ownSum(element, selection, points, value, gradient);
-    return;
-  }
   std::fill_n(value, points.size, 0.0);
   if (!gradient)
   {

@@ -18,7 +18,7 @@ public:
   enum class Sums
   {
     Largest, ///< the field itself
-    Own      ///< where not everything blends the sum of the element alone, as [SUB] has it
+    Own      ///< with BlendingKind::Paper the sum of the element alone, as [SUB] has it
   };
 
   /// \pre the leaf has no map and is not negative. Lives no longer than the leaf.

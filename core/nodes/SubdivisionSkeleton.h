@@ -38,10 +38,10 @@ struct SubdivisionSkeletonOptions
 /// F(M^-1 p), M being the identity for all but images under non-similarities.
 ///
 /// F is the sum over the elements of the refined skeleton of core/convolution's closed forms, or
-/// with blending control the largest of several such sums (BlendedField.h). A long straight curve
-/// and a wide flat sheet of one radius have their surface at that radius; ends are shorter and
-/// junctions thicker, and an element much shorter than its radius that stands alone has no surface.
-/// Splitting an element changes nothing.
+/// with blending control the mean or the largest of several such sums (BlendedField.h). A long
+/// straight curve and a wide flat sheet of one radius have their surface at that radius; ends are
+/// shorter and junctions thicker, and an element much shorter than its radius that stands alone has
+/// no surface. Splitting an element changes nothing.
 class SubdivisionSkeleton final : public Node
 {
 public:

@@ -261,10 +261,10 @@ NodePtr withoutMap(const SubdivisionSkeleton& leaf)
 /// What to do where blending control takes long; empty where it does not.
 std::string slownessWarning(const SubdivisionSkeleton& leaf)
 {
-  constexpr double kMany = 100.0;
+  constexpr double kMany = 300.0;
   const double count = leaf.convolution().meanNeighbours();
   return count <= kMany ? std::string()
-                        : "An element of this skeleton has " + std::to_string(std::int64_t(count)) +
+                        : "A piece of this skeleton has " + std::to_string(std::int64_t(count)) +
       " others near it. Blending = neighbours compares them all, and that is slow: Blending = all, "
       "a smaller radius or BlendDistance, or a coarser skeleton takes less, and Preview shows the "
       "pieces sooner.";

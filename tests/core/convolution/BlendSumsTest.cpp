@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/convolution/BlendedField.h"
+#include "core/convolution/PieceCutter.h"
 #include "tests/support/Random.h"
 
 #include <gtest/gtest.h>
@@ -10,7 +11,7 @@
 #include <ostream>
 #include <vector>
 
-// The pruned sums beside their definition (BlendedField.h).
+// The pruned sums beside their definitions (LimbMeans.h, PaperSums.h).
 namespace hybridtree::test
 {
 namespace
@@ -89,97 +90,73 @@ double valueOf(const TriangleElement& element, const ConvolutionKernel& kernel, 
   return value;
 }
 
-// The sums at one point, from all elements and pieces.
+// S at one point, from all pieces and all distances between them.
 class Definition
 {
 public:
   Definition(const GroupedElements& elements, const BlendingControl& control,
     const ConvolutionKernel& kernel)
-    : control_(control), kernel_(kernel), pieces_(makeBlendPieces(elements, control))
+    : share_(control)
+    , sight_(BlendingControl{ BlendingKind::Neighbours, 1.0 })
+    , kernel_(kernel)
+    , pieces_(cutIntoPieces(elements))
+    , distances_(pieces_.places.size(), std::vector<double>(pieces_.places.size()))
   {
+    const PieceGraph graph(pieces_.places, pieces_.contacts, pieces_.sides, elements.points);
+    PieceGraph::Search search(graph);
+    for (std::uint32_t c = 0; c < graph.size(); ++c)
+    {
+      search.run(c, 10.0);
+      for (std::uint32_t e = 0; e < graph.size(); ++e)
+      {
+        distances_[c][e] = search.distance(e);
+      }
+    }
   }
 
   double operator()(const Vec3& p) const
   {
-    const Fields fields = this->fieldsAt(p);
-    double best = 0.0;
-    for (std::size_t i = 0; i < fields.own.size(); ++i)
+    const std::vector<double> fields = this->fieldsAt(p);
+    double sum = 0.0;
+    double weights = 0.0;
+    for (std::size_t c = 0; c < fields.size(); ++c)
     {
-      best = std::max(best, this->sum(static_cast<std::int32_t>(i), fields));
+      double blended = 0.0;
+      double seen = 0.0;
+      for (std::size_t e = 0; e < fields.size(); ++e)
+      {
+        blended += share_(distances_[c][e]) * fields[e];
+        seen += sight_(distances_[c][e]) * fields[e];
+      }
+      const double weight = fields[c] * std::pow(seen, 20);
+      weights += weight;
+      sum += weight * blended;
     }
-    return this->end(best);
-  }
-
-  /// Of one group by itself.
-  double own(std::size_t i, const Vec3& p) const
-  {
-    return this->end(this->sum(static_cast<std::int32_t>(i), this->fieldsAt(p)));
+    const double mean = weights > 0.0 ? sum / weights : 0.0;
+    return kernel_.kind == KernelKind::Cauchy ? faded(mean) : mean;
   }
 
 private:
-  struct Fields
+  std::vector<double> fieldsAt(const Vec3& p) const
   {
-    std::vector<double> own;  // per group
-    std::vector<double> here; // per piece
-    std::vector<BlendPieces::Place> places;
-  };
-
-  Fields fieldsAt(const Vec3& p) const
-  {
-    Fields fields;
-    fields.own.assign(pieces_.neighbours.size(), 0.0);
-    const auto visit = [&](const auto& elements, const std::vector<BlendPieces::Place>& of)
+    std::vector<double> fields(pieces_.places.size(), 0.0);
+    const auto add = [&](const auto& elements, const std::vector<std::uint32_t>& of)
     {
       for (std::size_t k = 0; k < elements.size(); ++k)
       {
-        fields.here.push_back(valueOf(elements[k], kernel_, p));
-        fields.places.push_back(of[k]);
-        fields.own[static_cast<std::size_t>(of[k].group)] += fields.here.back();
+        fields[of[k]] += valueOf(elements[k], kernel_, p);
       }
     };
-    visit(pieces_.segments, pieces_.segmentPlaces);
-    visit(pieces_.triangles, pieces_.trianglePlaces);
+    add(pieces_.segments, pieces_.segmentPieces);
+    add(pieces_.triangles, pieces_.trianglePieces);
     return fields;
   }
 
-  double end(double sum) const { return kernel_.kind == KernelKind::Cauchy ? faded(sum) : sum; }
-
-  // G_i.
-  double sum(std::int32_t i, const Fields& fields) const
-  {
-    const auto& [own, here, places] = fields;
-    const std::vector<std::int32_t>& others = pieces_.neighbours[static_cast<std::size_t>(i)];
-    const auto isIn = [i, &others](std::int32_t group)
-    { return group == i || std::binary_search(others.begin(), others.end(), group); };
-    const BlendShare share(control_);
-    double total = 0.0;
-    for (std::int32_t j = 0; j < static_cast<std::int32_t>(own.size()); ++j)
-    {
-      double sum = 0.0;
-      double far = 0.0;
-      for (std::size_t c = 0; c < here.size(); ++c)
-      {
-        if (isIn(places[c].group))
-        {
-          sum += here[c];
-          far += here[c] * distance(places[c], j, 2.0 * share.end());
-        }
-      }
-      total += isIn(j) && sum > 0.0 ? share(far / sum) * own[static_cast<std::size_t>(j)] : 0.0;
-    }
-    return total;
-  }
-
-  static double distance(const BlendPieces::Place& place, std::int32_t group, double farthest)
-  {
-    const auto found = std::find_if(place.distances.begin(), place.distances.end(),
-      [&](const GroupDistance& near) { return near.group == group; });
-    return place.group == group ? 0.0 : found != place.distances.end() ? found->distance : farthest;
-  }
-
-  BlendingControl control_;
+  BlendShare share_;
+  BlendShare sight_;
   ConvolutionKernel kernel_;
-  BlendPieces pieces_;
+  CutPieces pieces_;
+  std::vector<std::vector<double>> distances_;
 };
 
 // The same for [SUB]'s own, of elements that are a group each. Segments come behind the triangle.
@@ -328,7 +305,7 @@ double valueAt(const BlendedField& field, const Vec3& p)
   return valuesAt(field, nullptr, { &p.x(), &p.y(), &p.z(), 1 }).front();
 }
 
-TEST_P(BlendSumsCases, AreTheLargestSumOfTheDefinition)
+TEST_P(BlendSumsCases, AreThoseOfTheDefinition)
 {
   const auto& [control, kernel] = GetParam();
   Random random(11);
@@ -424,8 +401,8 @@ TEST(PaperSums, OfOneElementAreThoseOfItsNeighboursAlone)
     {
       const auto number = static_cast<std::int32_t>(group);
       const VectorBatch slopes = gradient;
-      field.ownSum(number, nullptr, points, value.data(), &slopes);
-      field.ownSum(number, nullptr, points, alone.data(), nullptr);
+      field.ownSum(number, points, value.data(), &slopes);
+      field.ownSum(number, points, alone.data(), nullptr);
       for (std::size_t k = 0; k < points.size(); ++k)
       {
         ASSERT_NEAR(value[k], expected.own(group, points[k]), 1e-12);
@@ -443,51 +420,7 @@ TEST(PaperSums, OfOneElementAreThoseOfItsNeighboursAlone)
   }
 }
 
-// The same by distance: exactly, and, from what reaches a box, so that the field is left where it
-// is the plain sum.
-TEST(OwnBlends, OfOneElementAreItsSumOfTheDefinition)
-{
-  Random random(15);
-  for (const ConvolutionKernel& kernel : { kQuadratic, kCubic, kCauchy })
-  {
-    const BlendingControl control{ BlendingKind::Neighbours, 0.7 };
-    const GroupedElements elements = tangle(random, 3);
-    const BlendedField field(kernel, control, elements);
-    const Definition expected(elements, control, kernel);
-    const PointList points = randomPoints(random, around(elements), 70);
-    std::vector<double> value(points.size());
-    std::vector<double> alone(points.size());
-    VectorList gradient(points.size());
-    const VectorBatch slopes = gradient;
-    BlendSelection selection;
-    field.select(field.influenceBounds(), selection);
-    int smaller = 0;
-    for (std::size_t group = 0; group < elements.groups.size(); ++group)
-    {
-      const auto number = static_cast<std::int32_t>(group);
-      field.ownSum(number, nullptr, points, value.data(), &slopes);
-      field.ownSum(number, &selection, points, alone.data(), nullptr);
-      for (std::size_t k = 0; k < points.size(); ++k)
-      {
-        const Vec3& p = points[k];
-        ASSERT_NEAR(value[k], expected.own(group, p), 1e-12);
-        const bool isSum = std::abs(alone[k] - expected(p)) < 1e-12;
-        ASSERT_TRUE(isSum || std::abs(alone[k] - value[k]) < 1e-12) << group << " " << k;
-        smaller += value[k] < expected(p) - 1e-6;
-        constexpr double kStep = 1e-6;
-        for (int axis = 0; axis < 3 && k < 20; ++axis)
-        {
-          const Vec3 step = kStep * Vec3::Unit(axis);
-          const double slope = expected.own(group, p + step) - expected.own(group, p - step);
-          ASSERT_NEAR(slopes[k][axis], slope / (2.0 * kStep), 1e-4);
-        }
-      }
-    }
-    EXPECT_GT(smaller, 50);
-  }
-}
-
-// But for rounding, also where more groups reach a batch than are handled together.
+// But for rounding, also where many groups reach a batch.
 TEST(BlendSums, DoNotDependOnWhichPointsAreAskedForTogether)
 {
   Random random(16);
