@@ -2,6 +2,7 @@
 #include "vtkHybridTreeConvert.h"
 
 #include "core/base/Error.h"
+#include "core/mesh/PlanarTriangulation.h"
 #include "vtkCellArray.h"
 #include "vtkCellArrayIterator.h"
 #include "vtkCellData.h"
@@ -15,6 +16,7 @@
 #include "vtkTypeInt32Array.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <map>
@@ -245,12 +247,17 @@ private:
   {
     polygon_->PointIds->SetNumberOfIds(size);
     polygon_->Points->SetNumberOfPoints(size);
+    outline_.resize(static_cast<std::size_t>(size));
     for (vtkIdType k = 0; k < size; ++k)
     {
-      double x[3];
-      input_->GetPoint(points[k], x);
+      Vec3& x = outline_[static_cast<std::size_t>(k)];
+      input_->GetPoint(points[k], x.data());
       polygon_->PointIds->SetId(k, k);
-      polygon_->Points->SetPoint(k, x);
+      polygon_->Points->SetPoint(k, x.data());
+    }
+    if (size > 4 && this->hasBridges() && this->cutInPlane(cell, points))
+    {
+      return true;
     }
     if (!polygon_->Triangulate(0, corners_, unused_) ||
       corners_->GetNumberOfIds() != 3 * (size - 2))
@@ -265,10 +272,68 @@ private:
     return true;
   }
 
+  /// Whether corners of the polygon have equal coordinates: VTK takes them for faults.
+  bool hasBridges()
+  {
+    if (!std::all_of(outline_.begin(), outline_.end(), [](const Vec3& x) { return x.allFinite(); }))
+    {
+      return false; // told by the repair
+    }
+    sorted_ = outline_;
+    std::sort(sorted_.begin(), sorted_.end(),
+      [](const Vec3& a, const Vec3& b)
+      { return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end()); });
+    return std::adjacent_find(sorted_.begin(), sorted_.end()) != sorted_.end();
+  }
+
+  /// Cuts the polygon as it is seen along the axis nearest to its normal, which leaves coordinates
+  /// as they are. \returns whether all triangles are the right way round and cover it.
+  bool cutInPlane(vtkIdType cell, const vtkIdType* points)
+  {
+    Vec3 normal = Vec3::Zero();
+    for (std::size_t k = 1; k + 1 < outline_.size(); ++k)
+    {
+      normal += (outline_[k] - outline_[0]).cross(outline_[k + 1] - outline_[0]);
+    }
+    int axis = 0;
+    normal.cwiseAbs().maxCoeff(&axis);
+    const bool mirrored = !(normal[axis] > 0.0);
+    std::vector<Vec2> outline;
+    for (const Vec3& x : outline_)
+    {
+      const double u = x[(axis + 1) % 3];
+      outline.emplace_back(mirrored ? -u : u, x[(axis + 2) % 3]);
+    }
+    const std::vector<Triangle> cut = triangulatePolygon(outline);
+    double area = 0.0;
+    for (const auto& [a, b, c] : cut)
+    {
+      const Vec2 ab = outline[b] - outline[a];
+      const Vec2 ac = outline[c] - outline[a];
+      const double twice = ab.x() * ac.y() - ab.y() * ac.x();
+      if (twice < -1e-9 * std::abs(normal[axis]))
+      {
+        return false;
+      }
+      area += twice;
+    }
+    if (cut.size() + 2 != outline.size() ||
+      std::abs(area - std::abs(normal[axis])) > 1e-9 * std::abs(normal[axis]))
+    {
+      return false;
+    }
+    for (const auto& [a, b, c] : cut)
+    {
+      this->add(cell, points[a], points[b], points[c]);
+    }
+    return true;
+  }
+
   vtkPolyData* input_;
   vtkNew<vtkPolygon> polygon_;
   vtkNew<vtkIdList> corners_;
   vtkNew<vtkPoints> unused_;
+  std::vector<Vec3> outline_, sorted_;
 };
 
 /// Returns the number of the cell after the last one.

@@ -72,6 +72,10 @@ private:
     for (int k = next_[c]; k != a; k = next_[k])
     {
       const Vec2& p = points_[k];
+      if (p == points_[a] || p == points_[b] || p == points_[c])
+      {
+        continue; // the way back of a bridge: what it bounds begins beside the ear
+      }
       if (turnOf(points_[a], points_[b], p) >= 0 && turnOf(points_[b], points_[c], p) >= 0 &&
         turnOf(points_[c], points_[a], p) >= 0)
       {

@@ -11,7 +11,9 @@ namespace hybridtree
 using Vec2 = Eigen::Vector2d;
 
 /// Triangles of the inside of a simple polygon with no other points than its corners, by cutting
-/// ears. \pre counter-clockwise, simple; corners may lie on one line with their neighbours.
+/// ears. \pre counter-clockwise, simple; corners may lie on one line with their neighbours. Bridges
+/// to holes may be there: an edge that is passed both ways, between corners of equal coordinates.
+/// \returns two less than the corners; fewer where the outline crosses itself.
 std::vector<Triangle> triangulatePolygon(const std::vector<Vec2>& outline);
 
 /// Constrained Delaunay triangulation of the inside of a simple polygon, to which points are added

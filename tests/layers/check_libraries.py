@@ -32,7 +32,12 @@ def main():
     if len(cores) != 1:
         wrong.append(f"the plugin needs one VTK and has {cores}")
     # libvtkCommonCore-pv5.11.so.1: one suffix for all, or another VTK has slipped in.
-    suffixes = {re.search(r"(-[^-]*)?\.so", name).group(1) for name in found if name.startswith("libvtk")}
+    # VTK's copy of DIY, which ParaView's GUI brings, has two variants for MPI and no suffix in any build.
+    suffixes = {
+        re.search(r"(-[^-]*)?\.so", name).group(1)
+        for name in found
+        if name.startswith("libvtk") and not name.startswith("libvtkmdiympi")
+    }
     if len(suffixes) != 1:
         wrong.append(f"VTK libraries of several builds: {sorted(map(str, suffixes))}")
 
