@@ -68,10 +68,12 @@ WindingNumber::Dipole WindingNumber::gather(std::uint32_t ref)
 
 double WindingNumber::at(const Vec3& p) const
 {
-  return this->sum(0, p) / kFullSolidAngle;
+  AngleSum angles;
+  const double far = this->sum(0, p, angles);
+  return (far + 2.0 * angles.sum()) / kFullSolidAngle;
 }
 
-double WindingNumber::sum(std::uint32_t node, const Vec3& p) const
+double WindingNumber::sum(std::uint32_t node, const Vec3& p, AngleSum& angles) const
 {
   double total = 0.0;
   for (std::size_t k = 0; k < MeshBvh::kWidth; ++k)
@@ -95,13 +97,14 @@ double WindingNumber::sum(std::uint32_t node, const Vec3& p) const
       for (std::size_t j = 0; j < leaf.count; ++j)
       {
         const Triangle& c = mesh_.triangles[std::size_t(leaf.triangle[j])];
-        total += solidAngle(mesh_.points[std::size_t(c[0])], mesh_.points[std::size_t(c[1])],
-          mesh_.points[std::size_t(c[2])], p);
+        const auto [sine, cosine] = halfSolidAngle(mesh_.points[std::size_t(c[0])],
+          mesh_.points[std::size_t(c[1])], mesh_.points[std::size_t(c[2])], p);
+        angles.add(sine, cosine);
       }
     }
     else
     {
-      total += this->sum(child, p);
+      total += this->sum(child, p, angles);
     }
   }
   return total;

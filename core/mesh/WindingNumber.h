@@ -9,6 +9,8 @@
 namespace hybridtree
 {
 
+class AngleSum;
+
 /// Generalised winding number of any triangle mesh: solid angle of its front seen from p, in turns.
 /// 1 inside and 0 outside a closed mesh, in between near the holes of an open one; inside is above
 /// 1/2 (Jacobson et al. 2013). Clusters far from p count as dipoles (Barill et al. 2018).
@@ -31,7 +33,9 @@ private:
   };
 
   Dipole gather(std::uint32_t ref);
-  double sum(std::uint32_t node, const Vec3& p) const;
+  /// \returns the solid angle of the clusters far from p; half of that of each other triangle is
+  /// added to angles.
+  double sum(std::uint32_t node, const Vec3& p, AngleSum& angles) const;
 
   const TriangleMesh& mesh_;
   const MeshBvh& bvh_;
