@@ -34,7 +34,7 @@ constexpr double kKeptSquare = 0.11;
 
 // The estimate is right to about a tenth. Where it is not, the lattice shall be what was taken too
 // often.
-constexpr double kDoubt = 1.08;
+constexpr double kDoubt = 1.15;
 
 // On meshes it is less sure, and far more is lost where local would have been faster.
 constexpr double kDoubtOnMeshes = 0.93;

@@ -67,18 +67,18 @@ double largestGrowth(const TriangleMesh& mesh, const SpaceWarp& warp)
   return largest;
 }
 
-// Sum of what is told of triangles begin .. end - 1.
-template <typename Area>
-double sumOfAreas(const TriangleMesh& mesh, const Progress& progress, const Area& areaOf)
+// Area, from what is told of triangles begin .. end - 1: twice theirs, as areaNormal() is.
+template <typename TwiceArea>
+double sumOfAreas(const TriangleMesh& mesh, const Progress& progress, const TwiceArea& twiceAreaOf)
 {
   std::vector<double> parts((mesh.triangles.size() + kGrain - 1) / kGrain);
   parallelFor(mesh.triangles.size(), kGrain,
     [&](std::size_t begin, std::size_t end)
     {
       progress.check();
-      parts[begin / kGrain] = areaOf(begin, end);
+      parts[begin / kGrain] = twiceAreaOf(begin, end);
     });
-  return std::accumulate(parts.begin(), parts.end(), 0.0);
+  return 0.5 * std::accumulate(parts.begin(), parts.end(), 0.0);
 }
 
 double imageArea(const TriangleMesh& mesh, const SpaceWarp& warp, const Progress& progress)

@@ -13,6 +13,7 @@
 #include "core/nodes/LocalBlend.h"
 #include "core/nodes/MeshNode.h"
 #include "core/nodes/Primitive.h"
+#include "core/nodes/WarpImage.h"
 #include "core/skeletons/Box.h"
 #include "core/skeletons/Circle.h"
 #include "core/skeletons/Point.h"
@@ -216,6 +217,57 @@ TEST(Limits, DustGoesAndTheRestStays)
   EXPECT_EQ(mesh.points, kept.points);
   EXPECT_EQ(mesh.triangles, kept.triangles);
   EXPECT_EQ(mesh.sourceLeaf, std::vector<std::int32_t>(kept.triangles.size(), 7));
+}
+
+/// Doubles lengths: areas are four times as large.
+class Doubling final : public SpaceWarp
+{
+public:
+  void forward(PointBatch points, VectorBatch image) const override { scale(points, 2.0, image); }
+  void inverse(PointBatch points, VectorBatch preimage) const override
+  {
+    scale(points, 0.5, preimage);
+  }
+  void pullBack(PointBatch preimages, VectorBatch gradient) const override
+  {
+    for (std::size_t k = 0; k < preimages.size; ++k)
+    {
+      gradient.set(k, 0.5 * gradient[k]);
+    }
+  }
+  double inverseCost() const override { return 0.0; }
+  Box3 preimageBounds(const Box3& box) const override
+  {
+    return { 0.5 * box.min(), 0.5 * box.max() };
+  }
+  Box3 imageBounds(const Box3& box) const override { return { 2.0 * box.min(), 2.0 * box.max() }; }
+
+private:
+  static void scale(PointBatch points, double factor, VectorBatch result)
+  {
+    for (std::size_t k = 0; k < points.size; ++k)
+    {
+      result.set(k, factor * points[k]);
+    }
+  }
+};
+
+TEST(Limits, DeformedMeshesMayHaveAsManyTrianglesAsIsSaid)
+{
+  const TriangleMesh mesh = icosphere(1.0, 2);
+  double area = 0.0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+  {
+    area += 4.0 * 0.5 * areaNormal(mesh, t).norm(); // of the image
+  }
+  const auto check = [&](double triangles)
+  {
+    const double edgeLength = std::sqrt(area / triangles * 4.0 / std::sqrt(3.0));
+    requireCountableImage(mesh, Doubling(), edgeLength, Progress::none());
+  };
+  EXPECT_NO_THROW(check(1.99e7));
+  EXPECT_THROW(check(2.01e7), TooLarge);
+  expectComplaint([&] { check(5e7); }, { "some 5e+07 triangles", "at most 2e+07" });
 }
 
 // Work that makes many triangles looks often, and stops at whichever look says so.
