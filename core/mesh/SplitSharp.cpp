@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/mesh/SplitSharp.h"
 
+#include "core/base/DisjointSets.h"
 #include "core/mesh/HalfEdges.h"
 
-#include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace hybridtree
 {
@@ -19,7 +18,7 @@ public:
     : mesh_(mesh)
     , cosine_(std::cos(angle))
     , opposite_(halfEdges(mesh.triangles).opposite)
-    , group_(opposite_.size())
+    , groups_(opposite_.size())
     , isSharp_(mesh.points.size(), 0)
   {
   }
@@ -27,7 +26,6 @@ public:
   /// Whether any edge is sharp.
   bool find()
   {
-    std::iota(group_.begin(), group_.end(), 0);
     bool any = false;
     for (std::int32_t h = 0; h < std::int32_t(opposite_.size()); ++h)
     {
@@ -44,8 +42,8 @@ public:
         continue;
       }
       const bool opposed = this->from(h) != this->from(g);
-      this->join(h, opposed ? next(g) : g);
-      this->join(next(h), opposed ? g : next(g));
+      groups_.join(std::uint32_t(h), std::uint32_t(opposed ? next(g) : g));
+      groups_.join(std::uint32_t(next(h)), std::uint32_t(opposed ? g : next(g)));
     }
     return any;
   }
@@ -63,7 +61,7 @@ public:
       {
         continue;
       }
-      const std::size_t group = std::size_t(this->find(h));
+      const std::size_t group = groups_.find(std::uint32_t(h));
       sum[group] += this->angleAt(h) * areaNormal(mesh_, std::size_t(h / 3)).stableNormalized();
       if (pointOf[group] < 0)
       {
@@ -106,23 +104,6 @@ private:
     return std::atan2(a.cross(b).norm(), a.dot(b));
   }
 
-  std::int32_t find(std::int32_t h)
-  {
-    while (group_[std::size_t(h)] != h)
-    {
-      std::int32_t& above = group_[std::size_t(h)];
-      above = group_[std::size_t(above)];
-      h = above;
-    }
-    return h;
-  }
-
-  void join(std::int32_t a, std::int32_t b)
-  {
-    const auto [low, high] = std::minmax({ this->find(a), this->find(b) });
-    group_[std::size_t(high)] = low;
-  }
-
   static std::int32_t copyPoint(TriangleMesh& mesh, std::int32_t point)
   {
     mesh.points.push_back(Vec3(mesh.points[std::size_t(point)]));
@@ -137,7 +118,7 @@ private:
   const TriangleMesh& mesh_;
   const double cosine_;
   const std::vector<std::int32_t> opposite_; // per half-edge, as everything by its first corner
-  std::vector<std::int32_t> group_;          // of corners on one side
+  DisjointSets groups_;                      // of corners on one side
   std::vector<char> isSharp_;                // per point: of a sharp edge
 };
 
