@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Every #include of a room is one that the room may have (docs/architecture.md, Rooms)."""
+"""Every #include of a room is one that the room may have (docs/architecture.md, Rooms), and every source
+of core with a header beside it includes that one first: so its compilation shows that the header stands alone."""
 import pathlib
 import re
 import sys
@@ -37,15 +38,27 @@ ALLOWED = {
 }
 
 
+INCLUDE = r'\s*#\s*include\s*[<"]([^>"]+)[>"]'
+
+
+def includes_own_header_first(root, source):
+    header = str(source.with_suffix(".h").relative_to(root))
+    first = re.search(rf"^{INCLUDE}", source.read_text(), re.MULTILINE)
+    return first is not None and first.group(1) == header
+
+
 def main(root):
     count = 0
     wrong = []
+    for source in sorted(root.glob("core/**/*.cpp")):
+        if source.with_suffix(".h").exists() and not includes_own_header_first(root, source):
+            wrong.append(f"{source.relative_to(root)}: does not include {source.stem}.h before all others")
     for room, patterns in ALLOWED.items():
         for source in sorted(root.glob(f"{room}/**/*")):
             if source.suffix not in (".h", ".cpp", ".cxx", ".hpp"):
                 continue
             for number, line in enumerate(source.read_text().splitlines(), 1):
-                match = re.match(r'\s*#\s*include\s*[<"]([^>"]+)[>"]', line)
+                match = re.match(INCLUDE, line)
                 if not match:
                     continue
                 count += 1
