@@ -7,6 +7,7 @@
 #include "vtkCellArrayIterator.h"
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
+#include "vtkHybridTreeRangedArray.h"
 #include "vtkIdList.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
@@ -68,7 +69,7 @@ template <class Array, class Value>
 vtkSmartPointer<vtkDataArray> share(const Value* values, int components, std::size_t tuples,
   std::shared_ptr<const void> owner, const std::string& name)
 {
-  auto array = vtkSmartPointer<Array>::New();
+  auto array = vtkSmartPointer<RangedArray<Array>>::New();
   array->SetName(name.c_str());
   array->SetNumberOfComponents(components);
   if (tuples > 0)
