@@ -12,6 +12,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <numeric>
+#include <string>
+#include <vector>
 
 vtkStandardNewMacro(vtkHybridTreeArray);
 
@@ -32,6 +35,21 @@ void vtkHybridTreeArray::PutTree(const NodePtr& tree, vtkPolyData* mesh)
   array->InsertNextValue(hybridtree::fingerprintText(mesh));
   mesh->GetFieldData()->AddArray(array);
   hybridtree::putMeshes(*tree, mesh->GetFieldData());
+}
+
+//------------------------------------------------------------------------------
+void vtkHybridTreeArray::PutLeaf(const NodePtr& leaf, vtkPolyData* mesh)
+{
+  vtkHybridTreeArray::PutTree(leaf, mesh);
+  hybridtree::ConvertedMesh itself;
+  itself.repaired.mesh = leaf->leafMesh();
+  itself.repaired.pointMap.resize(itself.repaired.mesh->points.size());
+  std::iota(itself.repaired.pointMap.begin(), itself.repaired.pointMap.end(), 0);
+  itself.cells.resize(itself.repaired.mesh->triangles.size());
+  std::iota(itself.cells.begin(), itself.cells.end(), vtkIdType(0));
+  std::vector<std::string> none; // arrays that are too short are told by whoever made them
+  hybridtree::putArrays(
+    hybridtree::arraysOf(mesh, itself, none), hybridtree::leavesOf(*leaf), mesh->GetFieldData());
 }
 
 //------------------------------------------------------------------------------

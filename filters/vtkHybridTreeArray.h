@@ -52,6 +52,12 @@ public:
   static void PutTree(const NodePtr& tree, vtkPolyData* mesh);
 
   /**
+   * The same for a mesh leaf whose points and triangles are those of `mesh`, in that order: the
+   * point and cell arrays that `mesh` has by now go on with the tree.
+   */
+  static void PutLeaf(const NodePtr& leaf, vtkPolyData* mesh);
+
+  /**
    * The tree of a mesh: the live one, else the one its text describes. Null when there is none, or
    * when it belongs to another geometry than the mesh's.
    * \throws hybridtree::InvalidText when the text is damaged.

@@ -270,17 +270,21 @@ void writeArrays(const hybridtree::TriangleMesh& mesh, const std::vector<std::in
   normals->SetName(kNormals);
   normals->SetNumberOfComponents(3);
   normals->SetNumberOfTuples(count);
-  vtkNew<vtkIdTypeArray> pointIds;
-  pointIds->SetName(kPointIds);
-  pointIds->SetNumberOfTuples(count);
   for (vtkIdType k = 0; k < count; ++k)
   {
     const auto index = static_cast<std::size_t>(k);
     output->CopyData(input, ids[index], k);
     normals->SetTuple(k, mesh.normals[index].data());
-    pointIds->SetValue(k, ids[index]);
   }
   output->SetNormals(normals);
+}
+
+void writePointIds(const std::vector<std::int32_t>& ids, vtkPointData* output)
+{
+  vtkNew<vtkIdTypeArray> pointIds;
+  pointIds->SetName(kPointIds);
+  pointIds->SetNumberOfTuples(static_cast<vtkIdType>(ids.size()));
+  std::copy(ids.begin(), ids.end(), pointIds->GetPointer(0));
   output->AddArray(pointIds);
 }
 
@@ -421,8 +425,9 @@ void vtkHybridTreeReconstruction::Reconstruct(vtkDataSet* input, vtkPolyData* ou
     output->GetPointData());
   writeSource(output);
   const auto mesh = std::make_shared<const TriangleMesh>(std::move(surface.mesh));
-  vtkHybridTreeArray::PutTree(
+  vtkHybridTreeArray::PutLeaf(
     makeMeshNode(mesh, 2.0 * kThreshold, defaultInfluenceRadius(*mesh), 2), output);
+  writePointIds(surface.pointIds, output->GetPointData()); // of this surface only: not on the leaf
 }
 
 //------------------------------------------------------------------------------
