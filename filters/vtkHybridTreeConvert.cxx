@@ -2,9 +2,9 @@
 #include "vtkHybridTreeConvert.h"
 
 #include "core/base/Error.h"
+#include "core/base/Parallel.h"
 #include "core/mesh/PlanarTriangulation.h"
 #include "vtkCellArray.h"
-#include "vtkCellArrayIterator.h"
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
 #include "vtkHybridTreeRangedArray.h"
@@ -15,6 +15,7 @@
 #include "vtkPolyData.h"
 #include "vtkPolygon.h"
 #include "vtkTypeInt32Array.h"
+#include "vtkTypeInt64Array.h"
 
 #include <algorithm>
 #include <cmath>
@@ -121,32 +122,35 @@ private:
   vtkTypeUInt64 count_ = 0;
 };
 
-/// Cells straight from the arrays of this module's own outputs; others by VTK's iterator, which
-/// takes as long as all the rest.
+template <class Array, class Body>
+void forEachCell(Array* offsets, Array* corners, vtkIdType count, Body&& body)
+{
+  const auto* begin = offsets->GetPointer(0);
+  const auto* corner = corners->GetPointer(0);
+  std::vector<vtkIdType> points;
+  for (vtkIdType cell = 0; cell < count; ++cell)
+  {
+    points.assign(corner + begin[cell], corner + begin[cell + 1]);
+    body(static_cast<vtkIdType>(points.size()), points.data());
+  }
+}
+
+/// Straight from the arrays: VTK's iterator takes as long as all the rest.
 template <class Body>
 void forEachCell(vtkCellArray* cells, Body&& body)
 {
-  auto* offsets = vtkTypeInt32Array::SafeDownCast(cells->GetOffsetsArray());
-  auto* corners = vtkTypeInt32Array::SafeDownCast(cells->GetConnectivityArray());
-  if (offsets && corners && cells->GetNumberOfCells() > 0)
+  const vtkIdType count = cells->GetNumberOfCells();
+  if (count == 0)
   {
-    const vtkTypeInt32* begin = offsets->GetPointer(0);
-    const vtkTypeInt32* corner = corners->GetPointer(0);
-    std::vector<vtkIdType> points;
-    for (vtkIdType cell = 0; cell < cells->GetNumberOfCells(); ++cell)
-    {
-      points.assign(corner + begin[cell], corner + begin[cell + 1]);
-      body(static_cast<vtkIdType>(points.size()), points.data());
-    }
     return;
   }
-  const auto iterator = vtk::TakeSmartPointer(cells->NewIterator());
-  for (iterator->GoToFirstCell(); !iterator->IsDoneWithTraversal(); iterator->GoToNextCell())
+  if (cells->IsStorage64Bit())
   {
-    vtkIdType size;
-    const vtkIdType* points;
-    iterator->GetCurrentCell(size, points);
-    body(size, points);
+    forEachCell(cells->GetOffsetsArray64(), cells->GetConnectivityArray64(), count, body);
+  }
+  else
+  {
+    forEachCell(cells->GetOffsetsArray32(), cells->GetConnectivityArray32(), count, body);
   }
 }
 
@@ -388,20 +392,30 @@ std::vector<Vec3> pointsOf(vtkPolyData* input)
 
 // ---------------------------------------------------------------------------- to VTK
 
-vtkSmartPointer<vtkCellArray> trianglesOf(const MeshPtr& mesh)
+/// With indices of 64 bits, a copy: those of 32 could be shared, but VTK and ParaView read them
+/// through copies of each cell, which costs many times as much whenever they are drawn.
+vtkSmartPointer<vtkCellArray> trianglesOf(const TriangleMesh& mesh)
 {
-  const std::size_t count = mesh->triangles.size();
-  vtkNew<vtkTypeInt32Array> offsets;
+  constexpr std::size_t grain = 1 << 15;
+  const std::size_t count = mesh.triangles.size();
+  vtkNew<vtkTypeInt64Array> offsets;
+  vtkNew<vtkTypeInt64Array> corners;
   offsets->SetNumberOfValues(static_cast<vtkIdType>(count) + 1);
-  vtkTypeInt32* const offset = offsets->GetPointer(0);
-  for (std::size_t t = 0; t <= count; ++t)
-  {
-    offset[t] = static_cast<vtkTypeInt32>(3 * t);
-  }
+  corners->SetNumberOfValues(static_cast<vtkIdType>(3 * count));
+  vtkTypeInt64* const offset = offsets->GetPointer(0);
+  vtkTypeInt64* const corner = corners->GetPointer(0);
+  offset[0] = 0;
+  parallelFor(count, grain,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t t = begin; t < end; ++t)
+      {
+        offset[t + 1] = static_cast<vtkTypeInt64>(3 * (t + 1));
+        std::copy(mesh.triangles[t].begin(), mesh.triangles[t].end(), corner + 3 * t);
+      }
+    });
   auto cells = vtkSmartPointer<vtkCellArray>::New();
-  const auto corners =
-    sharedArray(count > 0 ? mesh->triangles.front().data() : nullptr, 1, 3 * count, mesh, "");
-  cells->SetData(offsets, vtkTypeInt32Array::SafeDownCast(corners));
+  cells->SetData(offsets, corners);
   return cells;
 }
 
@@ -468,7 +482,7 @@ void toPolyData(const MeshPtr& mesh, bool withNormals, vtkPolyData* output)
       sharedArray(mesh->points.front().data(), 3, mesh->points.size(), mesh, "Points"));
   }
   output->SetPoints(points);
-  output->SetPolys(trianglesOf(mesh));
+  output->SetPolys(trianglesOf(*mesh));
   if (withNormals && !mesh->normals.empty())
   {
     output->GetPointData()->SetNormals(

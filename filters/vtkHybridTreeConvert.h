@@ -40,8 +40,8 @@ struct ConvertedMesh
 /// when repairMesh() finds no way.
 ConvertedMesh toMesh(vtkPolyData* input);
 
-/// Gives `output` the points, triangles, Normals (if asked for) and SourceId of a mesh, without
-/// copying: the arrays keep the mesh alive. Points are doubles.
+/// Gives `output` the points, triangles, Normals (if asked for) and SourceId of a mesh. All but the
+/// triangles without copying: the arrays keep the mesh alive. Points are doubles.
 void toPolyData(const MeshPtr& mesh, bool withNormals, vtkPolyData* output);
 
 ///@{
