@@ -7,7 +7,9 @@
 #include "vtkAlgorithm.h"
 #include "vtkHybridTreeAbort.h"
 
+#include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <thread>
 
 namespace hybridtree
@@ -28,11 +30,19 @@ public:
 
   void report(double fraction) const override
   {
-    // Every report may redraw a progress bar at the far end of a network.
-    if (std::this_thread::get_id() == thread_ && fraction >= reported_ + 0.01)
+    if (std::this_thread::get_id() != thread_)
     {
-      reported_ = fraction;
-      algorithm_->UpdateProgress(fraction);
+      return;
+    }
+    // Every event may redraw a progress bar at the far end of a network. Where the fraction stands
+    // still they go on, as only observers of them can stop the filter; and it never goes back,
+    // though some work is done once more in another way.
+    const auto now = std::chrono::steady_clock::now();
+    if (fraction >= reported_ + 0.01 || now >= told_ + std::chrono::milliseconds(100))
+    {
+      reported_ = std::max(reported_, fraction);
+      told_ = now;
+      algorithm_->UpdateProgress(reported_);
     }
   }
 
@@ -49,6 +59,7 @@ private:
   vtkAlgorithm* algorithm_;
   std::thread::id thread_;
   mutable double reported_ = -1.0; ///< so that even a start is told
+  mutable std::chrono::steady_clock::time_point told_;
   mutable std::atomic<bool> cancelled_{ false };
 };
 

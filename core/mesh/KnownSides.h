@@ -41,15 +41,15 @@ public:
   }
 
   /// \param distance of p to the mesh, or less. \param side as MeshSide has it at p, without regard
-  /// to the nearest point; 0 is not kept.
-  void add(const Vec3& p, double distance, int side)
+  /// to the nearest point; 0 is not kept. \param winding the winding number at p, for open meshes.
+  void add(const Vec3& p, double distance, int side, double winding)
   {
     const double radius = distance * (1.0 - 1e-9); // rounding
     if (side == 0 || !(radius > 0.0))
     {
       return;
     }
-    const double clear = side_.isClosed() ? 0.0 : std::abs(side_.windingNumber(p) - 0.5);
+    const double clear = side_.isClosed() ? 0.0 : std::abs(winding - 0.5);
     balls_[next_] = { p, radius, radius * radius, clear, side };
     next_ = (next_ + 1) % kMost;
     size_ = std::min(size_ + 1, kMost);

@@ -154,8 +154,9 @@ int MeshDistance::sideFarAway(const Vec3& p, KnownSides& known) const
   int side = known.find(p);
   if (side == 0)
   {
-    side = side_->side(p);
-    known.add(p, std::sqrt(nearestOf(*mesh_, *bvh_, p).squared), side);
+    double winding = 0.0;
+    side = side_->side(p, &winding);
+    known.add(p, std::sqrt(nearestOf(*mesh_, *bvh_, p).squared), side, winding);
   }
   return side;
 }
@@ -184,10 +185,11 @@ void MeshDistance::signedDistance(PointBatch points, double maxDistance, double*
           int side = side_->isCostly() ? known.find(p) : 0;
           if (side == 0)
           {
-            side = side_->side(p, triangle[k], nearest);
+            double winding = 0.0;
+            side = side_->side(p, triangle[k], nearest, &winding);
             if (side_->isCostly())
             {
-              known.add(p, distance[k], side);
+              known.add(p, distance[k], side, winding);
             }
           }
           distance[k] *= -side;

@@ -320,11 +320,12 @@ Vec3 MeshSide::gradient(
   return side > 0 ? Vec3(-offset / distance) : Vec3(offset / distance);
 }
 
-int MeshSide::side(const Vec3& p, std::int32_t triangle, const NearestOnTriangle& nearest) const
+int MeshSide::side(
+  const Vec3& p, std::int32_t triangle, const NearestOnTriangle& nearest, double* winding) const
 {
   if (!this->isClosed())
   {
-    return nearest.squaredDistance == 0.0 ? 0 : winding_->at(p) > 0.5 ? 1 : -1;
+    return nearest.squaredDistance == 0.0 ? 0 : this->sideByWinding(p, winding);
   }
   if (!bounds_.contains(p))
   {
@@ -345,9 +346,19 @@ int MeshSide::side(const Vec3& p, std::int32_t triangle, const NearestOnTriangle
   return this->sideByRay(p);
 }
 
-int MeshSide::side(const Vec3& p) const
+int MeshSide::side(const Vec3& p, double* winding) const
 {
-  return this->isClosed() ? this->sideByRay(p) : winding_->at(p) > 0.5 ? 1 : -1;
+  return this->isClosed() ? this->sideByRay(p) : this->sideByWinding(p, winding);
+}
+
+int MeshSide::sideByWinding(const Vec3& p, double* winding) const
+{
+  const double number = winding_->at(p);
+  if (winding)
+  {
+    *winding = number;
+  }
+  return number > 0.5 ? 1 : -1;
 }
 
 int MeshSide::sideByRay(const Vec3& p) const

@@ -32,10 +32,12 @@ public:
   MeshSide(const TriangleMesh& mesh, const MeshBvh& bvh);
 
   /// \param nearest the point of `triangle` nearest to p, which is the nearest of the mesh.
-  int side(const Vec3& p, std::int32_t triangle, const NearestOnTriangle& nearest) const;
+  /// \param winding the winding number at p where that tells the side; else it stays as it was.
+  int side(const Vec3& p, std::int32_t triangle, const NearestOnTriangle& nearest,
+    double* winding = nullptr) const;
 
   /// Without a nearest point at hand: by the crossings of a ray, or by the winding number.
-  int side(const Vec3& p) const;
+  int side(const Vec3& p, double* winding = nullptr) const;
 
   /// side() with a nearest point costs as much as without: it seldom tells.
   bool isCostly() const { return overlapping_ || !this->isClosed(); }
@@ -65,6 +67,7 @@ private:
   void doubtFolds();
   bool shellsMayOverlap() const;
   int sideByRay(const Vec3& p) const;
+  int sideByWinding(const Vec3& p, double* winding) const;
 
   const TriangleMesh& mesh_;
   const MeshBvh& bvh_;

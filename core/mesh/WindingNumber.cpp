@@ -3,7 +3,7 @@
 
 #include "core/mesh/SolidAngle.h"
 
-#include <algorithm>
+#include <limits>
 
 namespace hybridtree
 {
@@ -12,31 +12,41 @@ namespace
 
 // Radii away from which a cluster counts as a dipole: error about 1 / kFar^3 of its solid angle.
 constexpr double kFar = 3.0;
+constexpr std::size_t kMostKept = 100'000; // triangles whose corners are kept by leaf: 10 MB
+constexpr double kNever = std::numeric_limits<double>::infinity();
 
 } // namespace
 
 WindingNumber::WindingNumber(const TriangleMesh& mesh, const MeshBvh& bvh)
-  : mesh_(mesh), bvh_(bvh), children_(bvh.nodes().size() * MeshBvh::kWidth)
+  : tree_{ &mesh, &bvh, std::vector<WindingDipoles>(bvh.nodes().size()), {} }
 {
   this->gather(0);
+  if (mesh.triangles.size() <= kMostKept)
+  {
+    tree_.corners.reserve(bvh.leaves().size());
+    for (const MeshBvh::Leaf& leaf : bvh.leaves())
+    {
+      tree_.corners.push_back(LeafCorners::of(mesh, leaf));
+    }
+  }
 }
 
-WindingNumber::Dipole WindingNumber::gather(std::uint32_t ref)
+WindingNumber::Cluster WindingNumber::gather(std::uint32_t ref)
 {
-  Dipole whole;
+  Cluster whole;
   if (ref & MeshBvh::kLeafBit)
   {
-    const MeshBvh::Leaf& leaf = bvh_.leaves()[ref & ~MeshBvh::kLeafBit];
+    const MeshBvh::Leaf& leaf = tree_.bvh->leaves()[ref & ~MeshBvh::kLeafBit];
     for (std::size_t k = 0; k < leaf.count; ++k)
     {
       const std::size_t t = std::size_t(leaf.triangle[k]);
-      const Vec3 normal = 0.5 * areaNormal(mesh_, t);
+      const Vec3 normal = 0.5 * areaNormal(*tree_.mesh, t);
       const double area = normal.norm();
       Vec3 middle = Vec3::Zero();
-      for (const std::int32_t vertex : mesh_.triangles[t])
+      for (const std::int32_t vertex : tree_.mesh->triangles[t])
       {
-        middle += mesh_.points[std::size_t(vertex)] / 3.0;
-        whole.box.extend(mesh_.points[std::size_t(vertex)]);
+        middle += tree_.mesh->points[std::size_t(vertex)] / 3.0;
+        whole.box.extend(tree_.mesh->points[std::size_t(vertex)]);
       }
       whole.center += area * middle;
       whole.normal += normal;
@@ -45,15 +55,18 @@ WindingNumber::Dipole WindingNumber::gather(std::uint32_t ref)
   }
   else
   {
+    WindingDipoles& dipoles = tree_.dipoles[ref];
     for (std::size_t k = 0; k < MeshBvh::kWidth; ++k)
     {
-      const std::uint32_t child = bvh_.nodes()[ref].child[k];
-      if (child == MeshBvh::kNone)
+      const std::uint32_t child = tree_.bvh->nodes()[ref].child[k];
+      const Cluster part = child == MeshBvh::kNone ? Cluster() : this->gather(child);
+      for (int axis = 0; axis < 3; ++axis)
       {
-        break;
+        dipoles.center[axis][k] = part.center[axis];
+        dipoles.normal[axis][k] = part.normal[axis];
       }
-      const Dipole part = this->gather(child);
-      children_[ref * MeshBvh::kWidth + k] = part;
+      const double far = kFar * part.radius;
+      dipoles.squaredFar[k] = child == MeshBvh::kNone ? kNever : far * far;
       whole.center += part.area * part.center;
       whole.normal += part.normal;
       whole.area += part.area;
@@ -68,46 +81,7 @@ WindingNumber::Dipole WindingNumber::gather(std::uint32_t ref)
 
 double WindingNumber::at(const Vec3& p) const
 {
-  AngleSum angles;
-  const double far = this->sum(0, p, angles);
-  return (far + 2.0 * angles.sum()) / kFullSolidAngle;
-}
-
-double WindingNumber::sum(std::uint32_t node, const Vec3& p, AngleSum& angles) const
-{
-  double total = 0.0;
-  for (std::size_t k = 0; k < MeshBvh::kWidth; ++k)
-  {
-    const std::uint32_t child = bvh_.nodes()[node].child[k];
-    if (child == MeshBvh::kNone)
-    {
-      break;
-    }
-    const Dipole& dipole = children_[node * MeshBvh::kWidth + k];
-    const Vec3 toward = dipole.center - p;
-    const double squared = toward.squaredNorm();
-    const double far = kFar * dipole.radius;
-    if (squared > far * far)
-    {
-      total += dipole.normal.dot(toward) / (squared * std::sqrt(squared));
-    }
-    else if (child & MeshBvh::kLeafBit)
-    {
-      const MeshBvh::Leaf& leaf = bvh_.leaves()[child & ~MeshBvh::kLeafBit];
-      for (std::size_t j = 0; j < leaf.count; ++j)
-      {
-        const Triangle& c = mesh_.triangles[std::size_t(leaf.triangle[j])];
-        const auto [sine, cosine] = halfSolidAngle(mesh_.points[std::size_t(c[0])],
-          mesh_.points[std::size_t(c[1])], mesh_.points[std::size_t(c[2])], p);
-        angles.add(sine, cosine);
-      }
-    }
-    else
-    {
-      total += this->sum(child, p, angles);
-    }
-  }
-  return total;
+  return solidAngleOfMesh(tree_, p) / kFullSolidAngle;
 }
 
 } // namespace hybridtree

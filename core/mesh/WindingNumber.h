@@ -3,13 +3,12 @@
 
 #include "core/mesh/MeshBvh.h"
 #include "core/mesh/TriangleMesh.h"
+#include "core/mesh/WindingKernels.h"
 
 #include <vector>
 
 namespace hybridtree
 {
-
-class AngleSum;
 
 /// Generalised winding number of any triangle mesh: solid angle of its front seen from p, in turns.
 /// 1 inside and 0 outside a closed mesh, in between near the holes of an open one; inside is above
@@ -23,7 +22,7 @@ public:
   double at(const Vec3& p) const;
 
 private:
-  struct Dipole
+  struct Cluster
   {
     Vec3 center = Vec3::Zero(); // mean of the triangles, by area
     Vec3 normal = Vec3::Zero(); // sum of area normals
@@ -32,14 +31,9 @@ private:
     Box3 box;
   };
 
-  Dipole gather(std::uint32_t ref);
-  /// \returns the solid angle of the clusters far from p; half of that of each other triangle is
-  /// added to angles.
-  double sum(std::uint32_t node, const Vec3& p, AngleSum& angles) const;
+  Cluster gather(std::uint32_t ref);
 
-  const TriangleMesh& mesh_;
-  const MeshBvh& bvh_;
-  std::vector<Dipole> children_; // kWidth per node
+  WindingTree tree_;
 };
 
 } // namespace hybridtree

@@ -5,6 +5,7 @@
 #include "core/polygonize/NotchSearch.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 namespace hybridtree
@@ -13,6 +14,7 @@ namespace
 {
 
 constexpr int kRounds = 8;
+constexpr double kLooking = 0.8;     // of a round's work
 constexpr double kNearCorner = 0.05; // cells, that a new point keeps off the old ones
 constexpr double kWorthFlip = 0.5;   // of the distance to the surface, that is left at most
 constexpr double kLeastTilt =
@@ -37,7 +39,8 @@ public:
     const Progress& progress)
     : cell_(options.cellSize)
     , mesh_(mesh)
-    , search_(field, options, mesh, progress)
+    , progress_(progress)
+    , search_(field, options, mesh)
     , oldTriangles_(mesh.triangles.size())
     , oldPoints_(mesh.points.size())
   {
@@ -50,8 +53,11 @@ public:
     bool changed = search_.hasHotPoints();
     for (int round = 0; round < kRounds && changed; ++round)
     {
-      search_.update(removed_);
-      changed = this->apply(this->possibleChanges());
+      // Places are looked at once, so there are ever fewer.
+      const double begin = 1.0 - std::ldexp(1.0, -round);
+      const ProgressPart part(progress_, begin, 0.5 * (1.0 + begin));
+      search_.update(removed_, ProgressPart(part, 0.0, kLooking));
+      changed = this->apply(this->possibleChanges(), ProgressPart(part, kLooking, 1.0));
     }
     return this->finish();
   }
@@ -171,13 +177,15 @@ private:
 
   // Doing it.
 
-  bool apply(const std::vector<Change>& changes)
+  bool apply(const std::vector<Change>& changes, const Progress& progress)
   {
     const std::size_t points = mesh_.points.size();
     const std::size_t triangles = mesh_.triangles.size();
     std::vector<const Change*> done;
     do
     {
+      progress.check();
+      progress.report(0.5);
       for (const Change* change : done)
       {
         for (const std::size_t t : change->replaced)
@@ -270,6 +278,7 @@ private:
 
   const double cell_;
   TriangleMesh& mesh_;
+  const Progress& progress_;
   NotchSearch search_;
   const std::size_t oldTriangles_;
   const std::size_t oldPoints_;

@@ -7,8 +7,10 @@
 #include "core/polygonize/NearSurface.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <numeric>
+#include <thread>
 
 namespace hybridtree
 {
@@ -414,6 +416,8 @@ std::vector<NotchPoint> findNotchPoints(const FieldSource& field, double cellSiz
     }
   }
   std::vector<NotchPoint> points(sites.size());
+  const std::thread::id caller = std::this_thread::get_id();
+  std::atomic<std::size_t> done(0);
   parallelFor(begins.size(), 1,
     [&](std::size_t from, std::size_t to)
     {
@@ -436,12 +440,18 @@ std::vector<NotchPoint> findNotchPoints(const FieldSource& field, double cellSiz
         parallelFor(end - begins[g], kSitesPerTask,
           [&](std::size_t first, std::size_t last)
           {
+            progress.check();
             NotchFinder finder(*near, cellSize);
             for (std::size_t k = begins[g] + first; k < begins[g] + last; ++k)
             {
               finder.add(sites[order[k]], points[order[k]]);
             }
             finder.run();
+            done += last - first;
+            if (std::this_thread::get_id() == caller)
+            {
+              progress.report(static_cast<double>(done) / static_cast<double>(sites.size()));
+            }
           });
       }
     });

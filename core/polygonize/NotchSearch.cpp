@@ -8,6 +8,14 @@ namespace hybridtree
 
 using Index = std::int32_t;
 
+namespace
+{
+
+// Of a look at all: edges and triangles as they are. The rest is for edges in their place.
+constexpr double kEdgesShare = 0.7;
+
+} // namespace
+
 NotchKey notchKey(const Triangle& corners)
 {
   NotchKey key{ corners[0], corners[1], corners[2], -1 };
@@ -26,9 +34,9 @@ std::size_t NotchKeyHash::operator()(const NotchKey& key) const
   return hash;
 }
 
-NotchSearch::NotchSearch(const FieldSource& field, const NotchOptions& options,
-  const TriangleMesh& mesh, const Progress& progress)
-  : field_(field), options_(options), mesh_(mesh), progress_(progress), hot_(mesh.points.size())
+NotchSearch::NotchSearch(
+  const FieldSource& field, const NotchOptions& options, const TriangleMesh& mesh)
+  : field_(field), options_(options), mesh_(mesh), hot_(mesh.points.size())
 {
   for (std::size_t t = options.first; t < mesh.triangles.size(); ++t)
   {
@@ -66,7 +74,7 @@ void NotchSearch::heatFrom(std::size_t firstMade)
   }
 }
 
-void NotchSearch::update(const std::vector<bool>& removed)
+void NotchSearch::update(const std::vector<bool>& removed, const Progress& progress)
 {
   this->findTriangles(removed);
   std::vector<NotchKey> keys;
@@ -84,7 +92,7 @@ void NotchSearch::update(const std::vector<bool>& removed)
       keys.push_back(notchKey(mesh_.triangles[t]));
     }
   }
-  this->lookAt(keys);
+  this->lookAt(keys, ProgressPart(progress, 0.0, kEdgesShare));
   keys.clear();
   for (const TriangleSide& side : sides_.all())
   {
@@ -94,7 +102,7 @@ void NotchSearch::update(const std::vector<bool>& removed)
       keys.push_back(flipped(this->edgeKey(side, *twin)));
     }
   }
-  this->lookAt(keys);
+  this->lookAt(keys, ProgressPart(progress, kEdgesShare, 1.0));
 }
 
 void NotchSearch::findTriangles(const std::vector<bool>& removed)
@@ -145,7 +153,7 @@ const NotchPoint* NotchSearch::find(const NotchKey& key) const
   return found == known_.end() ? nullptr : &found->second;
 }
 
-void NotchSearch::lookAt(const std::vector<NotchKey>& keys)
+void NotchSearch::lookAt(const std::vector<NotchKey>& keys, const Progress& progress)
 {
   std::vector<NotchKey> fresh;
   std::vector<NotchSite> sites;
@@ -158,7 +166,7 @@ void NotchSearch::lookAt(const std::vector<NotchKey>& keys)
     }
   }
   const std::vector<NotchPoint> points =
-    findNotchPoints(field_, options_.cellSize, sites, progress_);
+    findNotchPoints(field_, options_.cellSize, sites, progress);
   for (std::size_t k = 0; k < fresh.size(); ++k)
   {
     known_[fresh[k]] = points[k];

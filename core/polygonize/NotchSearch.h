@@ -30,15 +30,14 @@ class NotchSearch
 {
 public:
   /// All must live as long as this; the mesh may change, see update().
-  NotchSearch(const FieldSource& field, const NotchOptions& options, const TriangleMesh& mesh,
-    const Progress& progress);
+  NotchSearch(const FieldSource& field, const NotchOptions& options, const TriangleMesh& mesh);
 
   bool hasHotPoints() const { return hasHotPoints_; }
   /// Makes the points of triangles hot that came after those before `firstMade`.
   void heatFrom(std::size_t firstMade);
   /// Finds the triangles and looks at all their edges and, if they are bent, at themselves.
   /// \param removed per triangle of the mesh. \throws Cancelled.
-  void update(const std::vector<bool>& removed);
+  void update(const std::vector<bool>& removed, const Progress& progress);
 
   /// Triangles with a hot point,
   const std::vector<std::size_t>& triangles() const { return triangles_; }
@@ -65,13 +64,12 @@ private:
   void heat(const Triangle& corners);
   const TriangleSide* findChangeableTwin(const TriangleSide& side) const;
   void findTriangles(const std::vector<bool>& removed);
-  void lookAt(const std::vector<NotchKey>& keys);
+  void lookAt(const std::vector<NotchKey>& keys, const Progress& progress);
   NotchSite siteOf(const NotchKey& key) const;
 
   const FieldSource& field_;
   const NotchOptions& options_;
   const TriangleMesh& mesh_;
-  const Progress& progress_;
   bool hasHotPoints_ = false;
   std::vector<bool> hot_; ///< per point
   std::vector<std::size_t> triangles_;

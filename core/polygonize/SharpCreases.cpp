@@ -24,6 +24,7 @@ constexpr double kLeastNear = 0.43;    // 25 degrees, seen from near
 constexpr double kWorthFlip = 1e-3;    // cells that a flip must come nearer to the surface
 constexpr double kLeastTilt = 0.2;     // cosine of a flipped triangle to the surface beside it
 constexpr std::size_t kEdgesPerTask = 64;
+constexpr double kCreaseShare = 0.6; // of the work; the rest is for notches
 
 /// The edge of two sharpened polygons: side k of the first, and the same of the second.
 struct SharedEdge
@@ -402,15 +403,19 @@ private:
 std::size_t sharpenCreases(const FieldSource& field, const Lattice& lattice, std::size_t first,
   TriangleMesh& mesh, const Progress& progress)
 {
-  Sharpener sharpener(field, lattice, first, mesh, progress);
-  const std::size_t points = sharpener.run();
+  const ProgressPart creases(progress, 0.0, kCreaseShare);
+  Sharpener sharpener(field, lattice, first, mesh, creases);
+  std::size_t points = sharpener.run();
   // What is merely curved is round and small, and to look for notches there would cost more than
   // all the rest.
-  return sharpener.isCalm() ? points
-                            : points +
-      mendNotches(field,
-        { lattice.cellSize, std::cos(kLeastAngle), first, sharpener.calmTriangles() }, mesh,
-        progress);
+  if (!sharpener.isCalm())
+  {
+    const NotchOptions options{ lattice.cellSize, std::cos(kLeastAngle), first,
+      sharpener.calmTriangles() };
+    points += mendNotches(field, options, mesh, ProgressPart(progress, kCreaseShare, 1.0));
+  }
+  progress.report(1.0);
+  return points;
 }
 
 } // namespace hybridtree

@@ -3,6 +3,7 @@
 #include "tests/filters/Support.h"
 
 #include "vtkAppendPolyData.h"
+#include "vtkCellArray.h"
 #include "vtkDataArray.h"
 #include "vtkElevationFilter.h"
 #include "vtkFieldData.h"
@@ -13,6 +14,7 @@
 #include "vtkHybridTreeMeshField.h"
 #include "vtkHybridTreeTwist.h"
 #include "vtkInformation.h"
+#include "vtkPoints.h"
 #include "vtkSphereSource.h"
 #include "vtkTransform.h"
 #include "vtkTransformPolyDataFilter.h"
@@ -20,6 +22,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <random>
 
 namespace hybridtree::test
 {
@@ -339,6 +342,63 @@ TEST(Pipeline, ReadingAMeshIsToldAndCanBeStopped)
   EXPECT_NE(messages.warnings.find("not a closed surface"), std::string::npos) << messages.warnings;
   expectSolid(blend->GetOutput());
   EXPECT_EQ(record->Texts.back(), "");
+}
+
+// Triangles that cross each other leave nothing but the lattice, whose search for sharp edges is
+// most of the work.
+TEST(Pipeline, ABooleanOfASoupCanBeStoppedLate)
+{
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> unit(-0.5, 0.5);
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkCellArray> cells;
+  for (vtkIdType k = 0; k < 25; ++k)
+  {
+    for (int corner = 0; corner < 3; ++corner)
+    {
+      points->InsertNextPoint(unit(random), unit(random), unit(random));
+    }
+    const vtkIdType corners[3] = { 3 * k, 3 * k + 1, 3 * k + 2 };
+    cells->InsertNextCell(3, corners);
+  }
+  vtkNew<vtkPolyData> soup;
+  soup->SetPoints(points);
+  soup->SetPolys(cells);
+  const auto b = ball();
+  vtkNew<vtkHybridTreeBoolean> unite;
+  unite->SetInputData(0, soup);
+  unite->SetInputConnection(1, b->GetOutputPort());
+  unite->SetEdgeLength(0.06);
+  class StopLate : public vtkCommand
+  {
+  public:
+    static StopLate* New() { return new StopLate; }
+    void Execute(vtkObject* caller, unsigned long, void* amount) override
+    {
+      After += Stopped;
+      Stopped = Stopped || *static_cast<double*>(amount) >= From;
+      static_cast<vtkAlgorithm*>(caller)->SetAbortExecute(Stopped);
+    }
+    double From = 2.0;
+    bool Stopped = false;
+    int After = 0;
+  };
+  const Messages messages(unite);
+  for (const double from : { 0.3, 0.8, 0.9 })
+  {
+    vtkNew<StopLate> stop;
+    stop->From = from;
+    const unsigned long tag = unite->AddObserver(vtkCommand::ProgressEvent, stop);
+    unite->Modified();
+    unite->Update();
+    unite->RemoveObserver(tag);
+    EXPECT_TRUE(stop->Stopped) << from;
+    EXPECT_LE(stop->After, 2) << from;
+    EXPECT_EQ(unite->GetOutput()->GetNumberOfPoints(), 0) << from;
+  }
+  EXPECT_EQ(messages.errors, "");
+  unite->Update();
+  expectSolid(unite->GetOutput());
 }
 
 TEST(Pipeline, WhatStandsBehindAnAbortedNodeFollowsAtTheNextUpdate)

@@ -4,7 +4,7 @@
 #include "core/base/Error.h"
 #include "core/base/Parallel.h"
 #include "core/mesh/RepairMesh.h"
-#include "core/mesh/SolidAngle.h"
+#include "tests/support/SolidAngles.h"
 #include "tests/support/TestMeshes.h"
 
 #include <gtest/gtest.h>
@@ -122,17 +122,6 @@ double bruteDistance(const TriangleMesh& mesh, const Vec3& p)
   return double(best);
 }
 
-double bruteWinding(const TriangleMesh& mesh, const Vec3& p)
-{
-  double angle = 0.0;
-  for (const Triangle& c : mesh.triangles)
-  {
-    angle += solidAngle(mesh.points[std::size_t(c[0])], mesh.points[std::size_t(c[1])],
-      mesh.points[std::size_t(c[2])], p);
-  }
-  return angle / kFullSolidAngle;
-}
-
 struct NamedMesh
 {
   const char* name;
@@ -205,7 +194,7 @@ TEST_P(MeshDistanceOf, SideIsThatOfTheWindingNumber)
   int inside = 0;
   for (std::size_t k = 0; k < points.size; ++k)
   {
-    const double winding = bruteWinding(*mesh, points[k]);
+    const double winding = test::sumOfSolidAngles(*mesh, points[k]);
     if (std::abs(winding - 0.5) < 0.05)
     {
       continue; // on an open mesh the far field decides to about 0.01
@@ -450,7 +439,7 @@ TEST(MeshDistance, RealScanAgreesWithBruteForce)
   for (std::size_t k = 0; k < points.size; ++k)
   {
     EXPECT_NEAR(std::abs(found[k]), bruteDistance(*mesh, points[k]), 1e-12);
-    EXPECT_EQ(found[k]<0.0, bruteWinding(*mesh, points[k])> 0.5) << points[k].transpose();
+    EXPECT_EQ(found[k]<0.0, test::sumOfSolidAngles(*mesh, points[k])> 0.5) << points[k].transpose();
   }
 }
 

@@ -13,7 +13,9 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
+#include <thread>
 
 namespace hybridtree::test
 {
@@ -259,6 +261,67 @@ TEST(CreaseNotches, ThreadsMakeNoDifference)
   EXPECT_EQ(one.sharp.points, four.sharp.points);
   EXPECT_EQ(one.sharp.normals, four.sharp.normals);
   EXPECT_EQ(one.sharp.triangles, four.sharp.triangles);
+}
+
+/// Stops once so much is told to be done.
+class StopFrom final : public Progress
+{
+public:
+  explicit StopFrom(double fraction) : from_(fraction) {}
+  void report(double fraction) const override
+  {
+    EXPECT_EQ(std::this_thread::get_id(), caller_) << "reports are of the thread that asked";
+    EXPECT_GE(fraction, last_);
+    last_ = fraction;
+    stopped_ = stopped_ || fraction >= from_;
+  }
+  bool cancelled() const override { return stopped_; }
+  bool stopped() const { return stopped_; }
+
+private:
+  const double from_;
+  const std::thread::id caller_ = std::this_thread::get_id();
+  mutable double last_ = 0.0;
+  mutable std::atomic<bool> stopped_{ false };
+};
+
+// What is asked after the wish to stop is no more than each thread has at hand.
+TEST(CreaseNotches, StopsSoonAfterItIsAskedTo)
+{
+  Random random(89);
+  const Solid solid = notchedSolid(random, 2);
+  std::atomic<std::size_t> asked(0);
+  std::atomic<std::size_t> late(0);
+  const StopFrom* listening = nullptr;
+  const FunctionField field(
+    [&](const Vec3& p)
+    {
+      ++asked;
+      late += listening && listening->stopped();
+      return kThreshold - solid(p);
+    },
+    1.0);
+  constexpr double kCell = 0.03;
+  const TriangleMesh lattice = meshesOf(solid, kCell).lattice;
+  const auto mend = [&](const StopFrom& progress)
+  {
+    listening = &progress;
+    asked = 0;
+    late = 0;
+    TriangleMesh mesh = lattice;
+    mendNotches(field, { kCell, std::cos(0.5), 0, {} }, mesh, progress);
+  };
+  setThreadCount(2);
+  mend(StopFrom(2.0));
+  const std::size_t whole = asked;
+  for (const double fraction : { 0.1, 0.3, 0.6 })
+  {
+    const StopFrom progress(fraction);
+    EXPECT_THROW(mend(progress), Cancelled);
+    EXPECT_LT(late, whole / 20) << fraction;
+    EXPECT_LT(asked, whole);
+  }
+  setThreadCount(0);
 }
 
 } // namespace
