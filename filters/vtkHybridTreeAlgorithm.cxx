@@ -29,6 +29,7 @@
 #include "vtkStringArray.h"
 
 #include <algorithm>
+#include <utility>
 
 vtkInformationKeyMacro(vtkHybridTreeAlgorithm, TAKES_TREE, Integer);
 
@@ -352,7 +353,9 @@ void vtkHybridTreeAlgorithm::UpdateNode(const hybridtree::Progress& progress)
   if (othersChanged || !state.Node || state.NodeTime != this->GetMTime() ||
     state.NodeOperands != operands)
   {
-    state.Node = nullptr;
+    // Held until the next one is there, which takes over what both have, such as images under a
+    // map.
+    const NodePtr before = std::exchange(state.Node, nullptr);
     state.Told.startNode();
     this->Warn(warnings);
     state.Node = this->MakeNode(operands);

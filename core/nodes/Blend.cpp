@@ -136,6 +136,16 @@ public:
 
   std::vector<std::string> warnings() const override { return meshWarnings_.all(); }
 
+  std::optional<PointwiseLaw> pointwiseLaw() const override { return PointwiseLaw{ 0, true }; }
+  void visitOperands(
+    const Box3& box, const std::function<void(const Operand&)>& visit) const override
+  {
+    hierarchy_.visit(box,
+      [&](const Term& term) {
+        visit({ term.node, term.firstLeaf, term.count });
+      });
+  }
+
 protected:
   TriangleMesh makeMesh(double edgeLength, const Progress& progress) const override
   {

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <limits>
 
 namespace hybridtree
@@ -26,6 +28,39 @@ float roundedUp(double value)
   return -roundedDown(-value);
 }
 
+/// Numbers rise as the doubles do, and differ at the higher places the further apart these are.
+std::uint64_t orderedBits(double value)
+{
+  std::uint64_t bits;
+  value += 0.0; // -0 is 0
+  std::memcpy(&bits, &value, sizeof bits);
+  constexpr std::uint64_t kSign = std::uint64_t(1) << 63;
+  return (bits & kSign) != 0 ? ~bits : bits | kSign;
+}
+
+/// Before one another along a curve that fills space (Morton's order): by the axis that differs at
+/// the highest binary place. It is told by the two boxes alone.
+bool isBefore(const Box3& a, const Box3& b)
+{
+  const Vec3 centerA = a.center();
+  const Vec3 centerB = b.center();
+  std::uint64_t highest = 0;
+  bool before = false;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const std::uint64_t bitsA = orderedBits(centerA[axis]);
+    const std::uint64_t bitsB = orderedBits(centerB[axis]);
+    const std::uint64_t differing = bitsA ^ bitsB;
+    // Whether its highest place is above that of the highest so far.
+    if (highest < differing && highest < (highest ^ differing))
+    {
+      highest = differing;
+      before = bitsA < bitsB;
+    }
+  }
+  return before;
+}
+
 } // namespace
 
 BlendHierarchy::BlendHierarchy(std::vector<Term> terms)
@@ -47,6 +82,12 @@ BlendHierarchy::BlendHierarchy(std::vector<Term> terms)
     return;
   }
   origin_ = all.center();
+  std::sort(items.begin(), items.end(),
+    [](const auto& a, const auto& b)
+    {
+      return isBefore(a.first, b.first) ||
+        (!isBefore(b.first, a.first) && a.second.firstLeaf < b.second.firstLeaf);
+    });
   terms_.reserve(items.size());
   this->build(items, 0, items.size());
   groups_.shrink_to_fit();
@@ -65,14 +106,12 @@ BlendHierarchy::FloatBox BlendHierarchy::rounded(const Box3& box) const
 }
 
 void BlendHierarchy::build(
-  std::vector<std::pair<Box3, Term>>& items, std::size_t begin, std::size_t end)
+  const std::vector<std::pair<Box3, Term>>& items, std::size_t begin, std::size_t end)
 {
   Box3 bounds;
-  Box3 centers;
   for (std::size_t k = begin; k < end; ++k)
   {
     bounds.extend(items[k].first);
-    centers.extend(items[k].first.center());
   }
   const std::size_t index = groups_.size();
   groups_.push_back({ this->rounded(bounds), static_cast<std::uint32_t>(terms_.size()), 0, 0 });
@@ -86,16 +125,7 @@ void BlendHierarchy::build(
   }
   else
   {
-    Eigen::Index axis = 0;
-    centers.sizes().maxCoeff(&axis);
     const std::size_t middle = begin + (end - begin) / 2;
-    std::nth_element(items.begin() + begin, items.begin() + middle, items.begin() + end,
-      [&](const auto& a, const auto& b)
-      {
-        const double centerA = a.first.center()[axis];
-        const double centerB = b.first.center()[axis];
-        return centerA != centerB ? centerA < centerB : a.second.firstLeaf < b.second.firstLeaf;
-      });
     this->build(items, begin, middle);
     this->build(items, middle, end);
   }

@@ -27,7 +27,9 @@ public:
 
   const std::vector<Term>& terms() const { return terms_; }
 
-  /// Calls visit(term) for every term whose group's bounds touch the box, always in the same order.
+  /// Calls visit(term) for every term whose group's bounds touch the box. Which of two comes first
+  /// is told by these two alone: terms that do not reach a point leave its sum as it is, to the
+  /// last bit.
   template <typename Visit>
   void visit(const Box3& box, Visit&& visit) const
   {
@@ -77,7 +79,7 @@ private:
   };
 
   FloatBox rounded(const Box3& box) const;
-  void build(std::vector<std::pair<Box3, Term>>& items, std::size_t begin, std::size_t end);
+  void build(const std::vector<std::pair<Box3, Term>>& items, std::size_t begin, std::size_t end);
 
   std::vector<Term> terms_;
   std::vector<Group> groups_;

@@ -7,6 +7,7 @@
 #include "core/nodes/BlendEstimate.h"
 #include "core/nodes/BlendSource.h"
 #include "core/nodes/LatticeMesh.h"
+#include "core/nodes/NearDependencies.h"
 #include "core/nodes/TriangleSources.h"
 #include "core/stitch/KeptMesh.h"
 #include "core/stitch/Stitch.h"
@@ -254,22 +255,18 @@ public:
 
   Near near(const std::vector<Box3>& boxes) const override
   {
+    NearDependencies near(boxes, NearDependencies::Leaves::Numbered);
     std::vector<BlendSource::Term> terms;
-    Near near;
     for (std::size_t k = 0; k < parts_.size(); ++k)
     {
       const BlendPart& part = parts_[k];
-      if (std::any_of(
-            boxes.begin(), boxes.end(), [&](const Box3& box) { return boxes_[k].intersects(box); }))
+      if (near.reaches(boxes_[k]))
       {
         terms.push_back({ FieldSourcePtr(FieldSourcePtr(), part.node), part.count });
-        near.dependencies.emplace_back(
-          part.node->shared_from_this(), static_cast<double>(part.count), part.firstLeaf);
-        near.faceted = near.faceted || part.node->isFaceted();
+        near.add(*part.node, part.firstLeaf, static_cast<double>(part.count));
       }
     }
-    near.source = std::make_shared<BlendSource>(std::move(terms));
-    return near;
+    return { std::make_shared<BlendSource>(std::move(terms)), near.take(), near.isFaceted() };
   }
 
 private:
@@ -277,29 +274,18 @@ private:
   const std::vector<Box3> boxes_;
 };
 
-/// Of a local blend, as a whole.
+/// Of a local blend: what does not reach an island is 0 there and changes nothing.
 class LocalIslandField final : public BlendField
 {
 public:
-  LocalIslandField(const Node& blend, const LocalBlendParts& parts)
-    : BlendField(blend), parts_(parts)
-  {
-  }
+  using BlendField::BlendField;
 
-  Near near(const std::vector<Box3>&) const override
+  Near near(const std::vector<Box3>& boxes) const override
   {
-    Near near;
-    near.source = FieldSourcePtr(FieldSourcePtr(), &blend_);
-    near.faceted = blend_.isFaceted();
-    for (const Node* node : { parts_.a, parts_.b, parts_.region })
-    {
-      near.dependencies.emplace_back(node->shared_from_this(), 1.0, 0);
-    }
-    return near;
+    NearDependencies near(boxes, NearDependencies::Leaves::Numbered);
+    near.add(blend_, 0);
+    return { FieldSourcePtr(FieldSourcePtr(), &blend_), near.take(), near.isFaceted() };
   }
-
-private:
-  const LocalBlendParts& parts_;
 };
 
 TriangleMesh stitchOver(const Node& blend, const IslandField& field,
@@ -481,8 +467,8 @@ TriangleMesh localBlendMesh(const Node& blend, const LocalBlendParts& local,
     { local.region, false }, { local.unionOfBoth, true } };
   const std::vector<BlendPart> parts{ { local.a }, { local.b }, { local.region },
     { local.unionOfBoth } };
-  return meshByParts(blend, parts, terms, LocalInteraction(), LocalIslandField(blend, local),
-    options, edgeLength, report, progress);
+  return meshByParts(blend, parts, terms, LocalInteraction(), LocalIslandField(blend), options,
+    edgeLength, report, progress);
 }
 
 void forgetBlends()

@@ -105,8 +105,14 @@ public:
   {
     source_.fieldAndGradient(points, value, gradient);
   }
-  Interval range(const Box3& box) const override { return source_.range(box); }
-  FieldSourcePtr restrictedTo(const Box3& box) const override { return source_.restrictedTo(box); }
+  Interval range(const Box3& box) const override
+  {
+    return box.intersects(influence_) ? source_.range(box) : Interval{ 0.0, 0.0 };
+  }
+  FieldSourcePtr restrictedTo(const Box3& box) const override
+  {
+    return box.intersects(influence_) ? source_.restrictedTo(box) : nullptr;
+  }
 
   // B is asked only where A leaves the answer open.
   void membership(PointBatch points, std::int8_t* side) const override
@@ -178,6 +184,15 @@ public:
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     return warnings_;
+  }
+
+  // As printed, a Boolean needs its operands even where they are 0.
+  std::optional<PointwiseLaw> pointwiseLaw() const override
+  {
+    constexpr int kForms = 4;
+    const int number = 2 + kForms * static_cast<int>(operation_) + static_cast<int>(form_);
+    return form_ == BooleanForm::Paper ? std::nullopt
+                                       : std::optional(PointwiseLaw{ number, false });
   }
 
   /// What is told of the mesh at an edge length; empty where it is that of the lattice.

@@ -254,13 +254,15 @@ Interval booleanRange(BooleanOperation operation, BooleanForm form, Interval a, 
   a = { std::max(a.min, 0.0), std::max(a.max, 0.0) };
   b = { std::max(b.min, 0.0), std::max(b.max, 0.0) };
   const bool difference = operation == BooleanOperation::Difference;
+  // With one operand alone nothing falls.
+  const bool both = a.max > 0.0 && b.max > 0.0;
   if (difference)
   {
     std::swap(b.min, b.max); // the only operand in which anything falls
   }
   Interval range = { booleanScalar(operation, form, a.min, b.min),
     booleanScalar(operation, form, a.max, b.max) };
-  if (form == BooleanForm::Smooth || (form == BooleanForm::Paper && difference))
+  if (both && (form == BooleanForm::Smooth || (form == BooleanForm::Paper && difference)))
   {
     const double slack = kSmoothSlack * (a.max - a.min + std::abs(b.max - b.min));
     range.min = std::max(0.0, range.min - slack);

@@ -183,12 +183,20 @@ void DeformedMeshNode::fieldAndGradient(
 
 Interval DeformedMeshNode::range(const Box3& box) const
 {
+  if (!box.intersects(this->influenceBounds()))
+  {
+    return { 0.0, 0.0 };
+  }
   const MeshField* field = this->meshField();
   return field ? field->range(box) : Interval{ 0.0, 0.0 };
 }
 
 FieldSourcePtr DeformedMeshNode::restrictedTo(const Box3& box) const
 {
+  if (!box.intersects(this->influenceBounds()))
+  {
+    return nullptr;
+  }
   const MeshField* field = this->meshField();
   return field ? field->restrictedTo(box) : nullptr;
 }

@@ -161,8 +161,14 @@ public:
   {
     source_.fieldAndGradient(points, value, gradient);
   }
-  Interval range(const Box3& box) const override { return source_.range(box); }
-  FieldSourcePtr restrictedTo(const Box3& box) const override { return source_.restrictedTo(box); }
+  Interval range(const Box3& box) const override
+  {
+    return box.intersects(influence_) ? source_.range(box) : Interval{ 0.0, 0.0 };
+  }
+  FieldSourcePtr restrictedTo(const Box3& box) const override
+  {
+    return box.intersects(influence_) ? source_.restrictedTo(box) : nullptr;
+  }
 
   // [HT] 4.3: outside the region the union decides by its operands alone, inside it the field.
   void membership(PointBatch points, std::int8_t* side) const override
@@ -232,6 +238,14 @@ public:
   }
 
   std::vector<std::string> warnings() const override { return meshWarnings_.all(); }
+
+  std::optional<PointwiseLaw> pointwiseLaw() const override { return PointwiseLaw{ 1, false }; }
+  void visitOperands(const Box3&, const std::function<void(const Operand&)>& visit) const override
+  {
+    visit({ a_ });
+    visit({ b_, a_->leafCount() });
+    visit({ region_, 0, 1, false });
+  }
 
 protected:
   TriangleMesh makeMesh(double edgeLength, const Progress& progress) const override

@@ -4,6 +4,7 @@
 #include "core/base/Parallel.h"
 #include "core/nodes/MarkBlock.h"
 #include "core/nodes/MarkMemory.h"
+#include "core/nodes/NearDependencies.h"
 
 #include <algorithm>
 #include <array>
@@ -35,6 +36,10 @@ constexpr double kFarTooMany = 1.2; // times as many
 // surfaces they stand for.
 constexpr int kSurfaceBlock = 2;
 constexpr double kSurfaceMargin = 0.5; // cells
+
+// All that is asked in a unit lies in it or less than this beyond.
+constexpr double kMargin = 1.0; // cells
+static_assert(kMargin > kSurfaceMargin);
 
 // How far off T the field must be to tell that no surface is there.
 constexpr double kRangeSlack = 1e-9;
@@ -226,13 +231,16 @@ private:
 
   UnitKey keyOf(const MarkBlock& unit) const
   {
-    UnitKey key{ grid_, unit.low, interaction_.kind(), share_, {} };
+    NearDependencies near({ this->boxOf(unit, kMargin) }, NearDependencies::Leaves::Nameless);
     for (const MarkReach& reach : unit.reach)
     {
       const MarkTerm& term = terms_[reach.term];
-      key.terms.emplace_back(term.node->shared_from_this(), term.weight, term.kept ? 1 : 0);
+      const int flags =
+        (term.kept ? 1 : 0) + (term.node->isNegative() ? 2 : 0) + (term.node->isFaceted() ? 4 : 0);
+      near.addNumber(term.weight, flags);
+      near.add(*term.node, 0);
     }
-    return key;
+    return { grid_, unit.low, interaction_.kind(), share_, near.take() };
   }
 
   std::shared_ptr<const UnitMarks> marksOf(MarkBlock unit)

@@ -129,7 +129,9 @@ MeshField::MeshField(
   {
     throw InvalidGeometry("The mesh has no triangles: a mesh leaf needs a surface.");
   }
-  ownBounds_ = mesh_->bounds();
+  const Box3 own = mesh_->bounds();
+  const Vec3 reach = Vec3::Constant(influenceRadius_);
+  influence_ = transformed(Box3(Vec3(own.min() - reach), Vec3(own.max() + reach)), map_);
   for (const Vec3& point : mesh_->points)
   {
     bounds_.extend(identity_ ? point : Vec3(map_ * point));
@@ -212,6 +214,10 @@ Box3 MeshField::toMeshSpace(const Box3& box) const
 
 Interval MeshField::range(const Box3& box) const
 {
+  if (!box.intersects(influence_))
+  {
+    return { 0.0, 0.0 };
+  }
   const Box3 local = this->toMeshSpace(box);
   if (local.squaredExteriorDistance(this->distance().bounds()) >=
     influenceRadius_ * influenceRadius_)
@@ -229,6 +235,10 @@ Interval MeshField::fieldRange(const Interval& signedRange) const
 
 FieldSourcePtr MeshField::restrictedTo(const Box3& box) const
 {
+  if (!box.intersects(influence_))
+  {
+    return nullptr;
+  }
   const Box3 local = this->toMeshSpace(box);
   if (local.squaredExteriorDistance(this->distance().bounds()) >=
     influenceRadius_ * influenceRadius_)
@@ -294,12 +304,6 @@ void MeshField::nearestTriangle(
   {
     nearestPoint.set(k, map_ * nearestPoint[k]);
   }
-}
-
-Box3 MeshField::influenceBounds() const
-{
-  const Vec3 reach = Vec3::Constant(influenceRadius_);
-  return transformed(Box3(Vec3(ownBounds_.min() - reach), Vec3(ownBounds_.max() + reach)), map_);
 }
 
 } // namespace hybridtree

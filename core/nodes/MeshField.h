@@ -52,7 +52,10 @@ public:
   void nearestTriangle(
     PointBatch points, double* distance, std::int32_t* triangle, VectorBatch nearestPoint) const;
 
-  Box3 influenceBounds() const;                      ///< of the mesh grown by R, under the map
+  const Box3& influenceBounds() const
+  {
+    return influence_;
+  }                                                  ///< of the mesh grown by R, under the map
   const Box3& meshBounds() const { return bounds_; } ///< of the mesh under the map: tight
 
   const MeshPtr& mesh() const { return mesh_; }
@@ -86,7 +89,7 @@ private:
   Affine3 map_;
   Affine3 inverse_;
   bool identity_;
-  Box3 ownBounds_; ///< of the mesh in its own space
+  Box3 influence_;
   Box3 bounds_;
   mutable std::once_flag once_;
   mutable std::shared_ptr<const MeshDistance> distance_;

@@ -78,6 +78,17 @@ void Operator::prepare(const Progress& progress) const
   prepared_ = true;
 }
 
+void Operator::visitOperands(const Box3&, const std::function<void(const Operand&)>& visit) const
+{
+  Operand operand;
+  for (const NodePtr& child : children_)
+  {
+    operand.node = child.get();
+    visit(operand);
+    operand.firstLeaf += child->leafCount();
+  }
+}
+
 NodePtr Operator::makeAffine(const Affine3& map) const
 {
   {

@@ -4,7 +4,9 @@
 #include "core/nodes/Node.h"
 
 #include <cstdint>
+#include <functional>
 #include <mutex>
+#include <optional>
 #include <vector>
 
 namespace hybridtree
@@ -16,6 +18,23 @@ namespace hybridtree
 inline constexpr int kLargestDepth = 1000;
 inline constexpr std::int64_t kMostLeaves = 1'000'000;
 ///@}
+
+/// How the field of a node at a point follows from those of its children there.
+struct PointwiseLaw
+{
+  std::int32_t number; ///< tells it from all others, parameters included
+  /// Whatever is 0 may as well not be there. Otherwise there are at most 3 operands.
+  bool isSum = false;
+};
+
+/// What a node is computed from.
+struct Operand
+{
+  const Node* node = nullptr;
+  std::int32_t firstLeaf = 0; ///< among the leaves of the whole
+  std::int32_t count = 1;     ///< how often it is added
+  bool hasSources = true;     ///< a triangle may have its source leaf in it
+};
 
 /// An inner node: what all operators have in common.
 ///
@@ -31,6 +50,15 @@ public:
   std::vector<NodePtr> children() const final { return children_; }
   NodePtr underBlend() const final;
   void prepare(const Progress& progress) const final;
+
+  /// Where field, gradient and source leaf at a point are told by those of the operands there, one
+  /// that does not reach it being 0. Nothing for others, such as maps of space.
+  virtual std::optional<PointwiseLaw> pointwiseLaw() const { return std::nullopt; }
+
+  /// The operands of that law, in the order in which they are computed with: by default the
+  /// children. Of a sum at least those that reach the box.
+  virtual void visitOperands(
+    const Box3& box, const std::function<void(const Operand&)>& visit) const;
 
 protected:
   /// \throws InvalidParameter when a child is null, TooLarge beyond kLargestDepth or kMostLeaves.

@@ -186,6 +186,10 @@ Interval SubdivisionSkeleton::rangeOf(const BlendSelection& selection, const Box
 
 Interval SubdivisionSkeleton::range(const Box3& box) const
 {
+  if (!box.intersects(this->influenceBounds()))
+  {
+    return { 0.0, 0.0 };
+  }
   static thread_local BlendSelection selection; // no allocation once warm
   this->convolution().select(this->toOwnSpace(box), selection);
   return this->rangeOf(selection, box);
@@ -193,6 +197,10 @@ Interval SubdivisionSkeleton::range(const Box3& box) const
 
 FieldSourcePtr SubdivisionSkeleton::restrictedTo(const Box3& box) const
 {
+  if (!box.intersects(this->influenceBounds()))
+  {
+    return nullptr;
+  }
   // Copied where it is kept: lists that grow anew would be allocated several times.
   static thread_local BlendSelection selection;
   this->convolution().select(this->toOwnSpace(box), selection);

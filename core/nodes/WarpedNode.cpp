@@ -215,11 +215,19 @@ void WarpedNode::fieldAndGradient(PointBatch points, double* value, VectorBatch 
 
 Interval WarpedNode::range(const Box3& box) const
 {
+  if (!box.intersects(this->influenceBounds()))
+  {
+    return { 0.0, 0.0 };
+  }
   return warpedRange(*child_, *warp_, box);
 }
 
 FieldSourcePtr WarpedNode::restrictedTo(const Box3& box) const
 {
+  if (!box.intersects(this->influenceBounds()))
+  {
+    return nullptr;
+  }
   return restrictedWarp(*child_, *warp_, box);
 }
 

@@ -418,7 +418,8 @@ private:
     {
       auto island = std::make_shared<const Island>(work.local->toPlaces(*work.island));
       const std::size_t bytes = island->bytes() + work.localKey.parts.bytes() +
-        work.localKey.cells.size() * sizeof(CellSet::Brick);
+        work.localKey.cells.size() * sizeof(CellSet::Brick) +
+        work.localKey.known.size() * sizeof(Dependency);
       localStore().keep(std::move(work.localKey), std::move(island), bytes);
     }
   }

@@ -81,6 +81,26 @@ TEST(Pipeline, AMeshMadeServesALaterField)
   expectSolid(a->GetOutput());
 }
 
+// Nobody but the filter holds its tree while it makes the next one.
+TEST(Pipeline, AnEditBelowAMapKeepsTheImagesOfTheRest)
+{
+  const auto a = ball();
+  const auto b = rod();
+  vtkNew<vtkHybridTreeBlend> blend;
+  blend->AddInputConnection(a->GetOutputPort());
+  blend->AddInputConnection(b->GetOutputPort());
+  vtkNew<vtkHybridTreeAffineTransform> move;
+  move->SetInputConnection(blend->GetOutputPort());
+  move->SetTranslate(1.0, 0.0, 0.0);
+  move->Update();
+  const std::weak_ptr<const Node> imageOfA = move->GetTree()->children().at(0);
+  const std::weak_ptr<const Node> imageOfB = move->GetTree()->children().at(1);
+  b->SetSurfaceRadius(0.9 * b->GetSurfaceRadius());
+  move->Update();
+  EXPECT_EQ(move->GetTree()->children().at(0), imageOfA.lock());
+  EXPECT_NE(move->GetTree()->children().at(1), imageOfB.lock());
+}
+
 TEST(Pipeline, PassThroughFiltersAreSeenThrough)
 {
   const auto a = ball();

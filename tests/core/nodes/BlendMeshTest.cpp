@@ -15,6 +15,7 @@
 #include "tests/support/CancelAt.h"
 #include "tests/support/Random.h"
 #include "tests/support/RandomTree.h"
+#include "tests/support/SameMesh.h"
 #include "tests/support/TestMeshes.h"
 
 #include <gtest/gtest.h>
@@ -280,24 +281,6 @@ TEST(BlendMesh, LocalBlendsKeepTheUnion)
   EXPECT_TRUE(isClosedManifold(*local->mesh(edge))) << checkMesh(*local->mesh(edge)).describe();
   EXPECT_TRUE(local->warnings().empty());
   EXPECT_LE(hausdorff(local->mesh(edge), global->mesh(edge)), 0.5 * edge);
-}
-
-void expectSame(const TriangleMesh& a, const TriangleMesh& b)
-{
-  EXPECT_EQ(a.points, b.points);
-  EXPECT_EQ(a.triangles, b.triangles);
-  EXPECT_EQ(a.normals, b.normals);
-  EXPECT_EQ(a.sourceLeaf, b.sourceLeaf);
-  EXPECT_EQ(a.sourceTriangle, b.sourceTriangle);
-  ASSERT_EQ(a.vertexOrigin.size(), b.vertexOrigin.size());
-  for (std::size_t v = 0; v < a.vertexOrigin.size(); ++v)
-  {
-    const VertexOrigin& first = a.vertexOrigin[v];
-    const VertexOrigin& second = b.vertexOrigin[v];
-    ASSERT_TRUE(first.leaf == second.leaf && first.triangle == second.triangle &&
-      first.u == second.u && first.v == second.v)
-      << v;
-  }
 }
 
 // What earlier meshes have left behind saves work and changes nothing: one primitive moves, grows,

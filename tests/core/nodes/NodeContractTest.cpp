@@ -257,6 +257,34 @@ TEST_P(NodeContract, FieldIsZeroOutsideTheInfluenceBounds)
   }
 }
 
+// So that what is far from a place does not even change how something there is computed.
+TEST_P(NodeContract, NothingIsToldOfBoxesOutsideTheInfluenceBounds)
+{
+  std::vector<Affine3> maps = someMaps();
+  maps.push_back(Affine3::Identity());
+  Random random(16);
+  int outside = 0;
+  for (const Affine3& map : maps)
+  {
+    const NodePtr image = this->node().affine(map);
+    const Box3 reach = image->influenceBounds();
+    for (int round = 0; round < 200; ++round)
+    {
+      // Most of them a bit outside of one face.
+      Box3 box = randomBox(random, grown(reach, 1.5));
+      const int axis = random.integer(0, 2);
+      const double gap = reach.sizes()[axis] * std::pow(10.0, random.uniform(-9.0, -1.0));
+      box.translate((reach.max()[axis] + gap - box.min()[axis]) * Vec3::Unit(axis));
+      ASSERT_FALSE(box.intersects(reach));
+      const Interval range = image->range(box);
+      ASSERT_TRUE(range.min == 0.0 && range.max == 0.0) << range.min << " to " << range.max;
+      ASSERT_EQ(image->restrictedTo(box), nullptr);
+      ++outside;
+    }
+  }
+  EXPECT_EQ(outside, 800);
+}
+
 TEST_P(NodeContract, SignedDistanceIsThatToTheMeshOrUnknown)
 {
   const MeshPtr mesh = this->node().mesh(this->meshEdge());
