@@ -316,7 +316,7 @@ std::vector<vtkHybridTreeAlgorithm::NodePtr> vtkHybridTreeAlgorithm::ReadPort(
     try
     {
       takesTree ? connections[k].read(data[k], warnings, part)
-                : connections[k].readMesh(data[k], warnings, part);
+                : connections[k].readMesh(data[k], this->ClosesHoles(), warnings, part);
     }
     catch (const hybridtree::Cancelled&)
     {

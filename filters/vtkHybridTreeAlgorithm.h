@@ -187,6 +187,14 @@ protected:
     return false;
   }
 
+  /**
+   * True when meshes that are read as such, from ports without TAKES_TREE, get their holes closed.
+   */
+  virtual bool ClosesHoles()
+  {
+    return false;
+  }
+
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestInformation(
     vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;

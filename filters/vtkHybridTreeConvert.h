@@ -30,8 +30,10 @@ void requireValidCells(vtkPolyData* input);
 struct ConvertedMesh
 {
   RepairedMesh repaired;
-  std::vector<vtkIdType>
-    cells; ///< per triangle of repaired.mesh: the cell of the input it is part of
+  /// Per triangle of repaired.mesh: the cell of the input it is part of, -1 where it closes a hole.
+  std::vector<vtkIdType> cells;
+  /// Per point that closes a hole, which come last: another point of the mesh, which it is like.
+  std::vector<std::int32_t> addedFrom;
 };
 
 /// Triangulates polygons and strips and repairs the outcome (exactly equal points become one, ...).

@@ -84,6 +84,14 @@ vtkSmartPointer<vtkAbstractArray> arrayLike(vtkAbstractArray* other, const std::
   return array;
 }
 
+void fillWithNothing(vtkAbstractArray* array)
+{
+  if (auto* numbers = vtkDataArray::SafeDownCast(array))
+  {
+    numbers->Fill(isReal(array) ? vtkMath::Nan() : 0.0);
+  }
+}
+
 vtkSmartPointer<vtkAbstractArray> startColumn(
   const std::string& name, LeafColumn& column, std::size_t rows, std::vector<std::string>& untold)
 {
@@ -114,10 +122,7 @@ vtkSmartPointer<vtkAbstractArray> startColumn(
     }
   }
   result->SetNumberOfTuples(static_cast<vtkIdType>(rows));
-  if (auto* numbers = vtkDataArray::SafeDownCast(result))
-  {
-    numbers->Fill(isReal(result) ? vtkMath::Nan() : 0.0);
-  }
+  fillWithNothing(result);
   return result;
 }
 

@@ -28,6 +28,9 @@ struct LeafColumn
 /// An array of the type of another, empty. Never an implicit one, which no file could hold.
 vtkSmartPointer<vtkAbstractArray> arrayLike(vtkAbstractArray* other, const std::string& name);
 
+/// Fills an array with what stands for "no value": NaN, 0 or "".
+void fillWithNothing(vtkAbstractArray* array);
+
 /// An array for the column, of the type of its first source, holding nothing but what stands for
 /// "no value"; the other sources are brought to that type, or left out and told.
 vtkSmartPointer<vtkAbstractArray> startColumn(

@@ -104,9 +104,30 @@ bool staysBehind(vtkDataSetAttributes* data, vtkAbstractArray* array)
     array == data->GetGlobalIds() || array->GetDataType() == VTK_VARIANT;
 }
 
+/// The rows of an array, and no value where a row is -1.
+void takeRows(vtkAbstractArray* from, const std::vector<vtkIdType>& rows, vtkAbstractArray* to)
+{
+  vtkNew<vtkIdList> sources;
+  vtkNew<vtkIdList> targets;
+  for (std::size_t k = 0; k < rows.size(); ++k)
+  {
+    if (rows[k] >= 0)
+    {
+      sources->InsertNextId(rows[k]);
+      targets->InsertNextId(static_cast<vtkIdType>(k));
+    }
+  }
+  to->SetNumberOfTuples(static_cast<vtkIdType>(rows.size()));
+  if (sources->GetNumberOfIds() < to->GetNumberOfTuples())
+  {
+    fillWithNothing(to);
+  }
+  to->InsertTuples(targets, sources, from);
+}
+
 /// Arrays that do not have all `count` values are told of in `warnings` and left out.
-void gather(vtkDataSetAttributes* data, vtkIdType count, vtkIdList* rows, const std::string& prefix,
-  LeafArrays& to, std::vector<std::string>& warnings)
+void gather(vtkDataSetAttributes* data, vtkIdType count, const std::vector<vtkIdType>& rows,
+  const std::string& prefix, LeafArrays& to, std::vector<std::string>& warnings)
 {
   for (int k = 0; k < data->GetNumberOfArrays(); ++k)
   {
@@ -121,8 +142,7 @@ void gather(vtkDataSetAttributes* data, vtkIdType count, vtkIdList* rows, const 
     {
       const std::string name = prefix + nameOf(array);
       const auto part = arrayLike(array, name);
-      part->SetNumberOfTuples(rows->GetNumberOfIds());
-      array->GetTuples(rows, part);
+      takeRows(array, rows, part);
       to[name] = part;
     }
   }
@@ -174,16 +194,21 @@ void passActive(const LeafArrays& arrays, const std::vector<Leaf>& leaves,
 }
 
 /// Per point of the leaf, the first point of the input that became it.
-vtkSmartPointer<vtkIdList> pointRows(const RepairedMesh& repaired)
+std::vector<vtkIdType> pointRows(const ConvertedMesh& leaf)
 {
-  auto rows = vtkSmartPointer<vtkIdList>::New();
-  rows->SetNumberOfIds(static_cast<vtkIdType>(repaired.mesh->points.size()));
+  const RepairedMesh& repaired = leaf.repaired;
+  std::vector<vtkIdType> rows(repaired.mesh->points.size());
   for (std::size_t k = repaired.pointMap.size(); k-- > 0;)
   {
     if (repaired.pointMap[k] >= 0)
     {
-      rows->SetId(repaired.pointMap[k], static_cast<vtkIdType>(k));
+      rows[static_cast<std::size_t>(repaired.pointMap[k])] = static_cast<vtkIdType>(k);
     }
+  }
+  auto added = rows.end() - static_cast<std::ptrdiff_t>(leaf.addedFrom.size());
+  for (const std::int32_t point : leaf.addedFrom)
+  {
+    *added++ = rows[static_cast<std::size_t>(point)];
   }
   return rows;
 }
@@ -343,13 +368,10 @@ LeafArrays arraysOf(
 {
   const std::string hash = contentHashText(leaf.repaired.mesh) + ":";
   LeafArrays arrays;
-  gather(input->GetPointData(), input->GetNumberOfPoints(), pointRows(leaf.repaired),
-    kPointData + hash, arrays, warnings);
-  vtkNew<vtkIdList> cells;
-  cells->SetNumberOfIds(static_cast<vtkIdType>(leaf.cells.size()));
-  std::copy(leaf.cells.begin(), leaf.cells.end(), cells->GetPointer(0));
-  gather(
-    input->GetCellData(), input->GetNumberOfCells(), cells, kCellData + hash, arrays, warnings);
+  gather(input->GetPointData(), input->GetNumberOfPoints(), pointRows(leaf), kPointData + hash,
+    arrays, warnings);
+  gather(input->GetCellData(), input->GetNumberOfCells(), leaf.cells, kCellData + hash, arrays,
+    warnings);
   gatherActive(input->GetPointData(), kActive + hash + "points", arrays);
   gatherActive(input->GetCellData(), kActive + hash + "cells", arrays);
   return arrays;

@@ -17,6 +17,19 @@ vtkHybridTreeMeshField::vtkHybridTreeMeshField()
 vtkHybridTreeMeshField::~vtkHybridTreeMeshField() = default;
 
 //------------------------------------------------------------------------------
+void vtkHybridTreeMeshField::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "CloseHoles: " << this->CloseHoles << "\n";
+}
+
+//------------------------------------------------------------------------------
+bool vtkHybridTreeMeshField::ClosesHoles()
+{
+  return this->CloseHoles;
+}
+
+//------------------------------------------------------------------------------
 int vtkHybridTreeMeshField::FillInputPortInformation(int port, vtkInformation* info)
 {
   const int filled = this->Superclass::FillInputPortInformation(port, info);

@@ -13,7 +13,7 @@
  *
  * Polygons and strips are triangulated, exactly equal points become one, degenerate and double
  * triangles go, and orientations are made consistent. An open mesh gets its inside from the
- * winding number, with a warning.
+ * winding number, with a warning, unless CloseHoles closes it.
  */
 
 #ifndef vtkHybridTreeMeshField_h
@@ -27,6 +27,19 @@ class HYBRIDTREEFILTERS_EXPORT vtkHybridTreeMeshField : public vtkHybridTreeLeaf
 public:
   static vtkHybridTreeMeshField* New();
   vtkTypeMacro(vtkHybridTreeMeshField, vtkHybridTreeLeafAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * Close every loop of open edges by triangles of the smallest area between its points, so that
+   * blends keep the triangles of a scan and its inside is exact. The new triangles have no values
+   * of cell arrays (NaN or 0). A border is a loop, too: an open sheet becomes a shell without
+   * thickness. Default off: holes stay as they are.
+   */
+  vtkSetMacro(CloseHoles, bool);
+  vtkGetMacro(CloseHoles, bool);
+  vtkBooleanMacro(CloseHoles, bool);
+  ///@}
 
 protected:
   vtkHybridTreeMeshField();
@@ -36,7 +49,10 @@ protected:
   NodePtr MakeNode(const Operands& operands) override;
 #endif
 
+  bool ClosesHoles() override;
   int FillInputPortInformation(int port, vtkInformation* info) override;
+
+  bool CloseHoles = false;
 
 private:
   vtkHybridTreeMeshField(const vtkHybridTreeMeshField&) = delete;

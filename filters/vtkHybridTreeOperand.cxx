@@ -2,6 +2,7 @@
 #include "vtkHybridTreeOperand.h"
 
 #include "core/base/Error.h"
+#include "core/mesh/CloseHoles.h"
 #include "core/mesh/MeshChecks.h"
 #include "core/nodes/MeshNode.h"
 #include "core/tree/Serialize.h"
@@ -50,6 +51,24 @@ void appendAllWarnings(
   }
 }
 
+/// Tells what stays open. \throws Cancelled
+void closeHolesOf(ConvertedMesh& leaf, std::vector<std::string>& warnings, const Progress& progress)
+{
+  auto mesh = std::make_shared<TriangleMesh>(*leaf.repaired.mesh);
+  ClosedHoles closed = closeHoles(*mesh, progress);
+  if (closed.left > 0)
+  {
+    warnings.push_back(std::to_string(closed.left) +
+      " holes stay open: they are slits without area, or lie where more than two triangles meet.");
+  }
+  if (closed.holes > 0)
+  {
+    leaf.cells.resize(mesh->triangles.size(), -1);
+    leaf.addedFrom = std::move(closed.addedFrom);
+    leaf.repaired.mesh = std::move(mesh);
+  }
+}
+
 vtkPolyData* meshOf(const Block& block)
 {
   requireData(block.data != nullptr);
@@ -83,13 +102,13 @@ void OperandBlock::read(
   }
 }
 
-void OperandBlock::readMesh(
-  vtkPolyData* input, std::vector<std::string>& newWarnings, const Progress& progress)
+void OperandBlock::readMesh(vtkPolyData* input, bool closesHoles,
+  std::vector<std::string>& newWarnings, const Progress& progress)
 {
-  if (time_ != input->GetMTime())
+  if (time_ != input->GetMTime() || closesHoles != closesHoles_)
   {
     time_ = 0;
-    this->readTriangles(input, newWarnings, progress);
+    this->readTriangles(input, closesHoles, newWarnings, progress);
     time_ = input->GetMTime();
   }
 }
@@ -100,7 +119,7 @@ void OperandBlock::readTree(
   const CarriedTree carried = carriedTree(input);
   if (!carried.belongs)
   {
-    this->readTriangles(input, newWarnings, progress);
+    this->readTriangles(input, false, newWarnings, progress);
     return;
   }
   if (carried.live)
@@ -121,11 +140,11 @@ void OperandBlock::readTree(
   mergeArrays(arraysIn(input->GetFieldData()), arrays_);
 }
 
-void OperandBlock::readTriangles(
-  vtkPolyData* input, std::vector<std::string>& newWarnings, const Progress& progress)
+void OperandBlock::readTriangles(vtkPolyData* input, bool closesHoles,
+  std::vector<std::string>& newWarnings, const Progress& progress)
 {
   const vtkTypeUInt64 print = fingerprint(input);
-  if (!mesh_.repaired.mesh || print != fingerprint_)
+  if (!mesh_.repaired.mesh || print != fingerprint_ || closesHoles != closesHoles_)
   {
     progress.report(0.0);
     progress.check();
@@ -133,7 +152,12 @@ void OperandBlock::readTriangles(
     text_.clear();
     mesh_ = toMesh(input);
     fingerprint_ = print;
+    closesHoles_ = closesHoles;
     append(mesh_.repaired.warnings, newWarnings);
+    if (closesHoles)
+    {
+      closeHolesOf(mesh_, newWarnings, progress);
+    }
   }
   if (!node_)
   {
@@ -141,7 +165,12 @@ void OperandBlock::readTriangles(
     progress.check();
     const MeshPtr& mesh = mesh_.repaired.mesh;
     node_ = makeMeshNode(mesh, kPlainMaximumField, defaultInfluenceRadius(*mesh), kPlainExponent);
+    const std::size_t before = newWarnings.size();
     append(node_->warnings(), newWarnings); // builds the hierarchy of the mesh
+    if (newWarnings.size() > before && !closesHoles && this->isPatch())
+    {
+      newWarnings.back() += " CloseHoles of HybridTree Mesh Field closes them.";
+    }
     progress.report(1.0);
   }
   arrays_ = arraysOf(input, mesh_, newWarnings);
@@ -177,19 +206,19 @@ void Operand::read(
   }
   if (!patches.empty())
   {
-    patches_.readMesh(vtkPolyData::SafeDownCast(joined(patches)), newWarnings, progress);
+    patches_.readMesh(vtkPolyData::SafeDownCast(joined(patches)), false, newWarnings, progress);
     this->take(patches_);
   }
 }
 
-void Operand::readMesh(
-  const std::vector<Block>& blocks, std::vector<std::string>& newWarnings, const Progress& progress)
+void Operand::readMesh(const std::vector<Block>& blocks, bool closesHoles,
+  std::vector<std::string>& newWarnings, const Progress& progress)
 {
   requireData(!blocks.empty());
   nodes_.clear();
   arrays_.clear();
   const Block whole{ "", joined(blocks) };
-  patches_.readMesh(meshOf(whole), newWarnings, progress);
+  patches_.readMesh(meshOf(whole), closesHoles, newWarnings, progress);
   this->take(patches_);
 }
 

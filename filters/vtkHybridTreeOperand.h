@@ -28,9 +28,10 @@ public:
   /// new. \throws InvalidGeometry, InvalidText, TooLarge, Cancelled.
   void read(vtkPolyData* input, std::vector<std::string>& newWarnings, const Progress& progress);
 
-  /// As read(), but takes the input as a mesh whatever tree it has.
-  void readMesh(
-    vtkPolyData* input, std::vector<std::string>& newWarnings, const Progress& progress);
+  /// As read(), but takes the input as a mesh whatever tree it has, with its holes closed or as it
+  /// is.
+  void readMesh(vtkPolyData* input, bool closesHoles, std::vector<std::string>& newWarnings,
+    const Progress& progress);
 
   const NodePtr& node() const { return node_; }
 
@@ -43,8 +44,8 @@ public:
 private:
   void readTree(
     vtkPolyData* input, std::vector<std::string>& newWarnings, const Progress& progress);
-  void readTriangles(
-    vtkPolyData* input, std::vector<std::string>& newWarnings, const Progress& progress);
+  void readTriangles(vtkPolyData* input, bool closesHoles, std::vector<std::string>& newWarnings,
+    const Progress& progress);
 
   NodePtr node_;
   LeafArrays arrays_;
@@ -53,6 +54,7 @@ private:
   vtkTypeUInt64 fingerprint_ = 0; ///< of the input that node_ was made from, unless it came live
   std::string text_;              ///< that node_ was parsed from
   ConvertedMesh mesh_;            ///< that node_ is a leaf over
+  bool closesHoles_ = false;      ///< of mesh_
 };
 
 /// What arrives over one input connection. Of composite data each block is a shape; but blocks that
@@ -64,9 +66,10 @@ public:
   void read(const std::vector<Block>& blocks, std::vector<std::string>& newWarnings,
     const Progress& progress);
 
-  /// Takes all blocks together for one mesh, whatever trees they have.
-  void readMesh(const std::vector<Block>& blocks, std::vector<std::string>& newWarnings,
-    const Progress& progress);
+  /// Takes all blocks together for one mesh, whatever trees they have, with its holes closed or as
+  /// it is.
+  void readMesh(const std::vector<Block>& blocks, bool closesHoles,
+    std::vector<std::string>& newWarnings, const Progress& progress);
 
   /// One node for each shape; not empty once read.
   const std::vector<NodePtr>& nodes() const { return nodes_; }

@@ -2,6 +2,7 @@
 #include "core/stitch/FillPolygon.h"
 
 #include "core/geometry/Predicates.h"
+#include "core/mesh/BestTriangulation.h"
 
 #include <algorithm>
 #include <cmath>
@@ -99,44 +100,18 @@ public:
 private:
   const Place& at(std::size_t k) const { return place_[border_[k]]; }
 
-  /// Dynamic programming over all triangulations (Klincsek 1980).
   void fillBest()
   {
-    const std::size_t n = border_.size();
-    cost_.assign(n * n, 0.0);
-    split_.assign(n * n, 0);
-    for (std::size_t length = 2; length < n; ++length)
+    BestTriangulation best;
+    best.find(
+      border_.size(),
+      [this](std::size_t i, std::size_t k, std::size_t j)
+      { return badness(this->at(i), this->at(k), this->at(j)); },
+      [](std::size_t, std::size_t) { return true; });
+    for (const auto& [i, k, j] : best.triangles)
     {
-      for (std::size_t i = 0; i + length < n; ++i)
-      {
-        const std::size_t j = i + length;
-        double best = std::numeric_limits<double>::infinity();
-        for (std::size_t k = i + 1; k < j; ++k)
-        {
-          const double cost =
-            cost_[i * n + k] + cost_[k * n + j] + badness(this->at(i), this->at(k), this->at(j));
-          if (cost < best)
-          {
-            best = cost;
-            split_[i * n + j] = k;
-          }
-        }
-        cost_[i * n + j] = best;
-      }
+      triangles_.push_back({ border_[i], border_[k], border_[j] });
     }
-    this->collect(0, n - 1);
-  }
-
-  void collect(std::size_t i, std::size_t j)
-  {
-    if (j < i + 2)
-    {
-      return;
-    }
-    const std::size_t k = split_[i * border_.size() + j];
-    triangles_.push_back({ border_[i], border_[k], border_[j] });
-    this->collect(i, k);
-    this->collect(k, j);
   }
 
   /// The best ear first.
@@ -196,8 +171,6 @@ private:
   const Border& border_;
   const std::vector<Place>& place_;
   std::vector<Triangle>& triangles_;
-  std::vector<double> cost_;
-  std::vector<std::size_t> split_;
 };
 
 /// Joins a hole to the border around it by two sides between their nearest points that see each
