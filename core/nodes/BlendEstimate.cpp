@@ -97,16 +97,6 @@ BlendCost::Sample sampleCost(const std::vector<MarkTerm>& terms, double edgeLeng
   return { onSurface, volume > 0.0 ? sum.inCell / volume : onSurface };
 }
 
-double squaresByBoxes(const std::vector<MarkTerm>& terms, double cellSize)
-{
-  double squares = 0.0;
-  for (const MarkTerm& term : terms)
-  {
-    squares += term.kept ? boxSquares(*term.node, cellSize) : 0.0;
-  }
-  return squares;
-}
-
 double squaresByPoints(const std::vector<MarkTerm>& terms, double cellSize)
 {
   double squares = 0.0;

@@ -16,15 +16,12 @@ namespace hybridtree
 /// have in common with others.
 BlendCost::Sample sampleCost(const std::vector<MarkTerm>& terms, double edgeLength);
 
-///@{
-/// Area of the surfaces of the terms that keep their mesh, in squared cells. By the sides of boxes,
-/// which is free, and two to three times too large for limbs that lie slant in theirs; or by how
-/// many of some hundred points lie near the surface, which is right to about a tenth.
-double squaresByBoxes(const std::vector<MarkTerm>& terms, double cellSize);
+/// Area of the surfaces of the terms that keep their mesh, in squared cells, by how many of some
+/// hundred points lie near the surface; right to about a tenth.
 double squaresByPoints(const std::vector<MarkTerm>& terms, double cellSize);
-///@}
 
-/// The same of terms that give up their mesh, as far as they lie outside of the others' boxes.
+/// The same of terms that give up their mesh, as far as they lie outside of the others' boxes. By
+/// the sides of boxes, which is two to three times too large for limbs that lie slant in theirs.
 double squaresGivenUp(const std::vector<MarkTerm>& terms, double cellSize);
 
 } // namespace hybridtree

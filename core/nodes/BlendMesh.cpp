@@ -380,30 +380,24 @@ TriangleMesh meshByParts(const Node& blend, const std::vector<BlendPart>& parts,
     choose ? sampleCost(terms, edgeLength) : BlendCost::Sample{ 0.0, 0.0 }, blend.isFaceted());
   const MemoryBudget budget{ kMaxBytes, edgeLength };
   const CellGrid grid = gridOf(blend, edgeLength);
-  const auto mark = [&](std::size_t mostCells)
-  {
-    return markedCells(
-      terms, interaction, grid, budget, mostCells, ProgressPart(progress, 0.3, 0.4));
-  };
+  const ProgressPart marking(progress, 0.3, 0.4);
+  std::optional<CellMarker> marker;
+  marker.emplace(terms, interaction, grid, budget, marking);
   const double givenUp = choose ? squaresGivenUp(terms, grid.cellSize) : 0.0;
-  const auto isSurelyGlobal = [&](const BlendCost::Surface& surface)
-  {
-    return seemFarMoreMarked(
-      terms, interaction, grid, budget, cost.mostCells(surface), ProgressPart(progress, 0.3, 0.3));
-  };
   const auto markIfCheaper = [&](const BlendCost::Surface& surface)
   {
+    const std::size_t most = cost.mostCells(surface);
     std::optional<CellSet> cells;
-    if (!isSurelyGlobal(surface))
+    if (!marker->seemMoreThan(most))
     {
-      cells = mark(cost.mostCells(surface));
+      cells = marker->mark(most);
     }
     return cells && cost.isLocalCheaper(*cells, surface) ? cells : std::nullopt;
   };
   std::optional<CellSet> cells;
   // Skeletons are sampled whole in no time: there the choice comes before anything is meshed.
   const bool chooseFirst = choose && !blend.isFaceted();
-  if (chooseFirst && !isSurelyGlobal({ squaresByBoxes(terms, edgeLength), givenUp }))
+  if (chooseFirst)
   {
     cells = markIfCheaper({ squaresByPoints(terms, edgeLength), givenUp });
   }
@@ -424,7 +418,8 @@ TriangleMesh meshByParts(const Node& blend, const std::vector<BlendPart>& parts,
     const auto surface = [&]() -> BlendCost::Surface {
       return { squaresOf(kept, edgeLength), givenUp, creasesOf(kept, edgeLength) };
     };
-    cells = byCost ? markIfCheaper(surface()) : mark(kAllCells);
+    marker.emplace(terms, interaction, grid, budget, marking); // the terms may have changed
+    cells = byCost ? markIfCheaper(surface()) : marker->mark(kAllCells);
   }
   const ProgressPart rest(progress, 0.4, 1.0);
   return cells ? stitchOver(blend, field, kept, std::move(*cells), grid, report, rest)

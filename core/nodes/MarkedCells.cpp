@@ -2,12 +2,11 @@
 #include "core/nodes/MarkedCells.h"
 
 #include "core/base/Parallel.h"
-#include "core/nodes/MarkBlock.h"
 #include "core/nodes/MarkMemory.h"
+#include "core/nodes/MarkSearch.h"
 #include "core/nodes/NearDependencies.h"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cmath>
 #include <utility>
@@ -19,51 +18,61 @@ namespace
 
 constexpr double kBytesPerBrick = 20000.0;
 
-// Cells along the side of what is marked, and remembered, as one.
-constexpr std::int64_t kUnit = 4 * kBrickSide;
-static_assert(kUnit >> MarkSearch::kLevels == 1, "a unit is halved down to cells");
-
-// Where the search may end early, some blocks of this many cells are looked at first, one in eight
-// or less: the count is the more certain the more cells are counted, and where so many are that
-// there are too many in all, not even as many as allowed are looked for.
-constexpr std::int64_t kSampledBlock = 4;
-constexpr std::int64_t kLargestShare = 8; // one in so many
-constexpr std::int64_t kLeastShare = 512;
+// A sample begins with one block in so many, or fewer where that many cells tell.
+constexpr std::int64_t kLargestShare = 8;
 constexpr double kTellingCells = 200.0;
-constexpr double kFarTooMany = 1.2; // times as many
 
-// A surface is looked for down to blocks of this many cells, and a bit beyond: meshes are off the
-// surfaces they stand for.
-constexpr int kSurfaceBlock = 2;
-constexpr double kSurfaceMargin = 0.5; // cells
+// The number of marked cells is the more certain the more are found. They come a block at a time:
+// the relative error is about the square root of this over what was found.
+constexpr double kCellsTogether = 12.0;
+constexpr double kCertain = 0.2;
 
 // All that is asked in a unit lies in it or less than this beyond.
 constexpr double kMargin = 1.0; // cells
 static_assert(kMargin > kSurfaceMargin);
 
-// How far off T the field must be to tell that no surface is there.
-constexpr double kRangeSlack = 1e-9;
+double uncertainty(double found)
+{
+  return std::sqrt(kCellsTogether / (found + 1.0));
+}
 
-class Marker
+/// So many found cells surely stand for more than those expected.
+double surelyMoreThan(double expected)
+{
+  double found = expected;
+  for (int step = 0; step < 4; ++step)
+  {
+    found = expected * (1.0 + uncertainty(found));
+  }
+  return found;
+}
+
+} // namespace
+
+class CellMarker::Units
 {
 public:
-  Marker(const std::vector<MarkTerm>& terms, const Interaction& interaction, const CellGrid& grid,
-    const MemoryBudget& budget, std::size_t mostCells, const Progress& progress)
-    : terms_(terms)
-    , interaction_(interaction)
-    , grid_(grid)
-    , budget_(budget)
-    , mostCells_(mostCells)
-    , progress_(progress)
+  Units(const std::vector<MarkTerm>& terms, const Interaction& interaction, const CellGrid& grid,
+    const MemoryBudget& budget, const Progress& progress)
+    : terms_(terms), interaction_(interaction), grid_(grid), budget_(budget), progress_(progress)
   {
   }
 
-  std::optional<CellSet> run()
+  std::optional<CellSet> mark(std::size_t most)
   {
-    this->findUnits();
+    this->begin(most);
     std::vector<std::shared_ptr<const UnitMarks>> marks(units_.size());
-    this->forEachUnit([&](std::size_t k) { marks[k] = this->marksOf(std::move(units_[k])); });
-    if (this->areTooMany())
+    std::atomic<std::size_t> bricks{ 0 };
+    this->forEachUnit(
+      [&](Unit& unit, std::size_t k)
+      {
+        marks[k] = this->marksOf(unit);
+        if (marks[k])
+        {
+          this->checkBudget(bricks += marks[k]->size());
+        }
+      });
+    if (count_.areTooMany())
     {
       return std::nullopt;
     }
@@ -79,104 +88,61 @@ public:
     return cells;
   }
 
-  /// That it ends as soon as what was found suffices does not change the answer.
-  bool seemFarTooMany()
+  bool seemMoreThan(std::size_t count)
   {
-    const double farTooMany = kFarTooMany * static_cast<double>(mostCells_);
-    share_ = kLargestShare;
-    while (share_ < kLeastShare && farTooMany > 2.0 * kTellingCells * static_cast<double>(share_))
+    const auto expected = static_cast<double>(count);
+    std::int64_t share = kLargestShare;
+    while (share < MarkSearch::kLeastShare &&
+      expected > 2.0 * kTellingCells * static_cast<double>(share))
     {
-      share_ *= 2;
+      share *= 2;
     }
-    mostCells_ = static_cast<std::size_t>(farTooMany / static_cast<double>(share_));
-    this->findUnits();
-    this->forEachUnit([&](std::size_t k) { this->sample(std::move(units_[k])); });
-    return this->areTooMany();
+    for (; share > 1; share /= 2)
+    {
+      const double inShare = expected / static_cast<double>(share);
+      this->begin(static_cast<std::size_t>(surelyMoreThan(inShare)));
+      this->forEachUnit([&](Unit& unit, std::size_t) { this->sample(unit, share); });
+      if (count_.areTooMany())
+      {
+        return true;
+      }
+      const auto found = static_cast<double>(count_.found);
+      const double doubt = uncertainty(found);
+      if (doubt < kCertain || found * (1.0 + doubt) < inShare)
+      {
+        return found > inShare;
+      }
+    }
+    return false;
   }
 
 private:
-  void findUnits()
+  struct Unit
   {
-    MarkBlock root = this->rootBlock();
-    if (root.side > 0)
-    {
-      this->collectUnits(std::move(root));
-    }
-  }
+    MarkBlock block;
+    std::unique_ptr<MarkSearch> search;
+    std::int64_t share = 0; ///< of its blocks that the search has looked at
+    std::vector<Dependency> dependencies;
+  };
 
-  /// Blocks are at multiples of their side: a unit is the same wherever the terms begin and end.
-  MarkBlock rootBlock() const
+  /// That a search ends as soon as there are too many does not change that there are.
+  void begin(std::size_t most)
   {
-    Box3 bounds;
-    MarkBlock root;
-    root.side = 0;
-    for (std::size_t k = 0; k < terms_.size(); ++k)
+    if (!areFound_)
     {
-      const Box3 box = terms_[k].node->influenceBounds();
-      if (!box.isEmpty())
+      const auto check = [this](std::size_t units)
       {
-        bounds.extend(box);
-        root.reach.push_back({ static_cast<int>(k), false, nullptr });
-      }
-    }
-    if (bounds.isEmpty())
-    {
-      return root;
-    }
-    // Checks that cells can be counted.
-    Lattice::covering(bounds, grid_.cellSize);
-    const Index3 first = grid_.cellAt(bounds.min());
-    const Index3 last = grid_.cellAt(bounds.max());
-    root.side = kUnit;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      const auto from = [&] { return first[axis] & -root.side; };
-      while (from() + 2 * root.side <= last[axis])
+        progress_.check();
+        this->checkBudget(units);
+      };
+      for (MarkBlock& block : markUnits(terms_, interaction_, grid_, check))
       {
-        root.side *= 2;
+        units_.push_back({ std::move(block), nullptr, 0, {} });
       }
+      areFound_ = true;
     }
-    // Two a side cover the bounds: their block, which need not be at a multiple.
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      root.low[axis] = first[axis] & -root.side;
-    }
-    root.side *= 2;
-    return root;
-  }
-
-  /// By influence boxes alone.
-  void collectUnits(MarkBlock block)
-  {
-    const Box3 box = this->boxOf(block, kSurfaceMargin);
-    std::vector<int> present;
-    std::vector<MarkReach> left;
-    for (const MarkReach& reach : block.reach)
-    {
-      if (box.intersects(terms_[reach.term].node->influenceBounds()))
-      {
-        present.push_back(reach.term);
-        left.push_back(reach);
-      }
-    }
-    if (!interaction_.marks(terms_, present))
-    {
-      return;
-    }
-    block.reach = std::move(left);
-    if (block.side == kUnit)
-    {
-      units_.push_back(std::move(block));
-      this->checkBudget(units_.size());
-      return;
-    }
-    progress_.check();
-    for (int n = 0; n < 8; ++n)
-    {
-      MarkBlock child;
-      Marker::setChild(block, n, child);
-      this->collectUnits(std::move(child));
-    }
+    count_.found = 0;
+    count_.most = most;
   }
 
   template <typename Body>
@@ -188,39 +154,79 @@ private:
         for (std::size_t k = begin; k < end; ++k)
         {
           progress_.check();
-          body(k);
+          body(units_[k], k);
         }
       });
   }
 
-  void sample(MarkBlock unit)
+  void sample(Unit& unit, std::int64_t share)
   {
-    if (this->areTooMany())
+    if (count_.areTooMany())
     {
       return;
     }
-    const UnitKey key = this->keyOf(unit);
+    const UnitKey key = this->keyOf(unit, share);
     if (const std::shared_ptr<const std::size_t> known = sampledCounts().find(key))
     {
-      count_ += *known;
-      return;
+      count_.found += *known;
     }
-    MarkSearch search;
-    this->markUnit(unit, search);
-    if (!this->areTooMany())
+    else if (this->search(unit, share))
     {
-      sampledCounts().keep(key, std::make_shared<const std::size_t>(search.cells.size()),
+      sampledCounts().keep(key, std::make_shared<const std::size_t>(unit.search->cells().size()),
         sizeof key + key.terms.size() * sizeof(Dependency));
     }
   }
 
-  /// Evenly over planes, too: the blocks of a share are a lattice with all sides alike.
-  bool isSampled(const MarkBlock& block) const
+  /// \return nothing where there are too many.
+  std::shared_ptr<const UnitMarks> marksOf(Unit& unit)
   {
-    const std::int64_t second = 1 + 2 * (share_ * 39 / 200);
-    const std::int64_t third = 1 + 2 * (share_ * 8 / 25);
-    const std::int64_t place = block.low[0] + second * block.low[1] + third * block.low[2];
-    return place / kSampledBlock % share_ == 0;
+    if (count_.areTooMany())
+    {
+      return nullptr;
+    }
+    const UnitKey key = this->keyOf(unit, 1);
+    std::shared_ptr<const UnitMarks> marks = unitMarks().find(key);
+    if (marks)
+    {
+      for (const CellSet::Brick& brick : *marks)
+      {
+        count_.found += brick.size();
+      }
+    }
+    else if (this->search(unit, 1))
+    {
+      marks = std::make_shared<const UnitMarks>(unit.search->cells().bricks());
+      unitMarks().keep(key, marks,
+        sizeof key + key.terms.size() * sizeof(Dependency) +
+          marks->size() * sizeof(CellSet::Brick));
+    }
+    unit.search.reset();
+    unit.share = 0;
+    return marks;
+  }
+
+  /// Brings the search in a unit to a share of its blocks.
+  /// \return false where there are too many: then all that was found is dropped.
+  bool search(Unit& unit, std::int64_t share)
+  {
+    if (!unit.search || unit.share < share)
+    {
+      unit.search = std::make_unique<MarkSearch>(unit.block);
+      unit.share = 0;
+    }
+    count_.found += unit.search->cells().size();
+    if (unit.share != share)
+    {
+      unit.search->run({ terms_, interaction_, grid_ }, share, count_);
+      unit.share = share;
+    }
+    if (count_.areTooMany())
+    {
+      unit.search.reset();
+      unit.share = 0;
+      return false;
+    }
+    return true;
   }
 
   void checkBudget(std::size_t bricks) const
@@ -229,252 +235,51 @@ private:
     budget_.check(count * kBytesPerBrick, count * kBrickPoints);
   }
 
-  UnitKey keyOf(const MarkBlock& unit) const
+  UnitKey keyOf(Unit& unit, std::int64_t share) const
   {
-    NearDependencies near({ this->boxOf(unit, kMargin) }, NearDependencies::Leaves::Nameless);
-    for (const MarkReach& reach : unit.reach)
+    if (unit.dependencies.empty())
     {
-      const MarkTerm& term = terms_[reach.term];
-      const int flags =
-        (term.kept ? 1 : 0) + (term.node->isNegative() ? 2 : 0) + (term.node->isFaceted() ? 4 : 0);
-      near.addNumber(term.weight, flags);
-      near.add(*term.node, 0);
-    }
-    return { grid_, unit.low, interaction_.kind(), share_, near.take() };
-  }
-
-  std::shared_ptr<const UnitMarks> marksOf(MarkBlock unit)
-  {
-    const UnitKey key = this->keyOf(unit);
-    std::shared_ptr<const UnitMarks> marks = unitMarks().find(key);
-    if (!marks)
-    {
-      MarkSearch search;
-      this->markUnit(unit, search);
-      if (this->areTooMany())
+      const Box3 box = grid_.boxOf(unit.block.low, static_cast<double>(unit.block.side), kMargin);
+      NearDependencies near({ box }, NearDependencies::Leaves::Nameless);
+      for (const MarkReach& reach : unit.block.reach)
       {
-        return nullptr;
+        const MarkTerm& term = terms_[reach.term];
+        const int flags = (term.kept ? 1 : 0) + (term.node->isNegative() ? 2 : 0) +
+          (term.node->isFaceted() ? 4 : 0);
+        near.addNumber(term.weight, flags);
+        near.add(*term.node, 0);
       }
-      marks = std::make_shared<const UnitMarks>(search.cells.bricks());
-      unitMarks().keep(key, marks,
-        sizeof key + key.terms.size() * sizeof(Dependency) +
-          marks->size() * sizeof(CellSet::Brick));
+      unit.dependencies = near.take();
     }
-    else
-    {
-      for (const CellSet::Brick& brick : *marks)
-      {
-        count_ += brick.size();
-      }
-    }
-    this->checkBudget(bricks_ += marks->size());
-    return marks;
-  }
-
-  Box3 boxOf(const MarkBlock& block, double margin) const
-  {
-    return grid_.boxOf(block.low, static_cast<double>(block.side), margin);
-  }
-
-  enum class Answer
-  {
-    None, ///< nothing to mark
-    Open,
-    All
-  };
-
-  /// Asks the terms anew for a block, and drops those that do not reach it. Those that do are
-  /// narrowed to large blocks.
-  Answer look(MarkBlock& block, MarkSearch& search) const
-  {
-    const Box3 box = this->boxOf(block, kSurfaceMargin);
-    search.possible.clear();
-    search.certain.clear();
-    search.ranges.clear();
-    std::size_t left = 0;
-    bool surface = false;
-    bool dropped = false;
-    for (std::size_t k = 0; k < block.reach.size(); ++k)
-    {
-      MarkReach reach = block.reach[k];
-      const MarkTerm& term = terms_[reach.term];
-      if (dropped && term.node->isFaceted() && !this->mayMark(search.possible, block, k))
-      {
-        return Answer::None; // whatever the meshes say, which takes long
-      }
-      if (block.side >= kBrickSide && !Marker::narrow(reach, box, search))
-      {
-        dropped = true;
-        continue;
-      }
-      const Interval range = reach.source->range(box);
-      if (range.min == 0.0 && range.max == 0.0)
-      {
-        dropped = true;
-        continue;
-      }
-      reach.certain = range.min > 0.0 || range.max < 0.0;
-      search.ranges.push_back({ term.weight * range.min, term.weight * range.max });
-      surface = surface || (term.kept && Marker::crosses(range));
-      search.possible.push_back(reach.term);
-      if (reach.certain)
-      {
-        search.certain.push_back(reach.term);
-      }
-      block.reach[left++] = reach;
-    }
-    block.reach.resize(left);
-    if (!interaction_.marks(terms_, search.possible))
-    {
-      return Answer::None;
-    }
-    if (!surface && !Marker::crosses(interaction_.range(search.possible, search.ranges)))
-    {
-      return Answer::None;
-    }
-    return interaction_.marks(terms_, search.certain) ? Answer::All : Answer::Open;
-  }
-
-  /// \return whether the term is there at all.
-  static bool narrow(MarkReach& reach, const Box3& box, MarkSearch& search)
-  {
-    FieldSourcePtr source = reach.source->restrictedTo(box);
-    reach.source = source.get();
-    search.sources.push_back(std::move(source));
-    return reach.source != nullptr;
-  }
-
-  /// Whether a cell is marked, as far as the ranges of the terms tell. A surface is near.
-  bool marksCell(const MarkBlock& cell, MarkSearch& search) const
-  {
-    search.possible.clear();
-    for (const MarkReach& reach : cell.reach)
-    {
-      if (reach.certain)
-      {
-        search.possible.push_back(reach.term);
-      }
-    }
-    const Box3 box = this->boxOf(cell, 0.0);
-    bool marks = interaction_.marks(terms_, search.possible);
-    for (std::size_t k = 0; k < cell.reach.size() && !marks; ++k)
-    {
-      const MarkReach& reach = cell.reach[k];
-      if (!reach.certain && this->mayBeThere(reach, box))
-      {
-        search.possible.push_back(reach.term);
-        marks = interaction_.marks(terms_, search.possible);
-      }
-    }
-    return marks;
-  }
-
-  static bool mayBeThere(const MarkReach& reach, const Box3& box)
-  {
-    const Interval range = reach.source->range(box);
-    return range.min != 0.0 || range.max != 0.0;
-  }
-
-  /// With all terms from number `next` on.
-  bool mayMark(std::vector<int> present, const MarkBlock& block, std::size_t next) const
-  {
-    for (std::size_t k = next; k < block.reach.size(); ++k)
-    {
-      present.push_back(block.reach[k].term);
-    }
-    return interaction_.marks(terms_, present);
-  }
-
-  static bool crosses(const Interval& range)
-  {
-    return range.min <= kThreshold + kRangeSlack && range.max >= kThreshold - kRangeSlack;
-  }
-
-  static void setChild(const MarkBlock& block, int n, MarkBlock& child)
-  {
-    child.side = block.side / 2;
-    child.low = block.low;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      child.low[axis] += (n >> axis & 1) != 0 ? child.side : 0;
-    }
-    child.reach = block.reach;
-  }
-
-  bool areTooMany() const { return count_ > mostCells_; }
-
-  /// Those that are quick to ask first.
-  void markUnit(MarkBlock& unit, MarkSearch& search)
-  {
-    for (MarkReach& reach : unit.reach)
-    {
-      reach.source = terms_[reach.term].node;
-    }
-    std::stable_partition(unit.reach.begin(), unit.reach.end(),
-      [&](const MarkReach& reach) { return !terms_[reach.term].node->isFaceted(); });
-    this->markBlock(unit, search, 0);
-  }
-
-  /// \param level of its children.
-  void markBlock(MarkBlock& block, MarkSearch& search, std::size_t level)
-  {
-    if (this->areTooMany() ||
-      (share_ > 1 && block.side == kSampledBlock && !this->isSampled(block)))
-    {
-      return;
-    }
-    Answer answer = Answer::All;
-    if (block.side >= kSurfaceBlock)
-    {
-      answer = this->look(block, search);
-    }
-    else if (!this->marksCell(block, search))
-    {
-      answer = Answer::None;
-    }
-    if (answer == Answer::None)
-    {
-      return;
-    }
-    if (answer == Answer::All && block.side <= kSurfaceBlock)
-    {
-      search.cells.insertBlock(block.low, static_cast<int>(block.side));
-      count_ += static_cast<std::size_t>(block.side * block.side * block.side);
-      return;
-    }
-    MarkBlock& child = search.blocks[level];
-    for (int n = 0; n < 8; ++n)
-    {
-      Marker::setChild(block, n, child);
-      this->markBlock(child, search, level + 1);
-    }
+    return { grid_, unit.block.low, interaction_.kind(), share, unit.dependencies };
   }
 
   const std::vector<MarkTerm>& terms_;
   const Interaction& interaction_;
   const CellGrid grid_;
-  const MemoryBudget& budget_;
-  std::size_t mostCells_;
-  std::int64_t share_ = 1; ///< of the blocks, one in so many is looked at
+  const MemoryBudget budget_;
   const Progress& progress_;
-  std::vector<MarkBlock> units_;
-  std::atomic<std::size_t> count_{ 0 }; ///< of cells
-  std::atomic<std::size_t> bricks_{ 0 };
+  std::vector<Unit> units_;
+  bool areFound_ = false;
+  MarkCount count_;
 };
 
-} // namespace
-
-std::optional<CellSet> markedCells(const std::vector<MarkTerm>& terms,
-  const Interaction& interaction, const CellGrid& grid, const MemoryBudget& budget,
-  std::size_t mostCells, const Progress& progress)
+CellMarker::CellMarker(const std::vector<MarkTerm>& terms, const Interaction& interaction,
+  const CellGrid& grid, const MemoryBudget& budget, const Progress& progress)
+  : units_(std::make_unique<Units>(terms, interaction, grid, budget, progress))
 {
-  return Marker(terms, interaction, grid, budget, mostCells, progress).run();
 }
 
-bool seemFarMoreMarked(const std::vector<MarkTerm>& terms, const Interaction& interaction,
-  const CellGrid& grid, const MemoryBudget& budget, std::size_t mostCells, const Progress& progress)
+CellMarker::~CellMarker() = default;
+
+bool CellMarker::seemMoreThan(std::size_t count)
 {
-  return Marker(terms, interaction, grid, budget, mostCells, progress).seemFarTooMany();
+  return units_->seemMoreThan(count);
+}
+
+std::optional<CellSet> CellMarker::mark(std::size_t most)
+{
+  return units_->mark(most);
 }
 
 void forgetMarks()

@@ -7,6 +7,7 @@
 #include "core/stitch/CellSet.h"
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -40,29 +41,42 @@ public:
     const std::vector<int>& present, const std::vector<Interval>& ranges) const = 0;
 };
 
-/// The lattice cells in which the surface has to be made anew ([HT] 5.2.1): where the fields that
-/// are not 0 interact, and a surface passes, of the whole or of a kept term.
+/// Finds the lattice cells in which the surface has to be made anew ([HT] 5.2.1): where the fields
+/// that are not 0 interact, and a surface passes, of the whole or of a kept term.
 ///
 /// Influence boxes are where the search begins; what counts is the range of each field over blocks
 /// of the lattice, halved down to single cells where that is open, so that a limb that lies slant
-/// does not mark its box. Sorted; the same for any number of threads. Blocks of the lattice that
-/// the same terms reach as in an earlier call are not looked at again.
-/// \param mostCells the search ends where there are more.
-/// \return nothing when there are more. \throws TooLarge when the marked bricks pass the budget;
-/// Cancelled.
-std::optional<CellSet> markedCells(const std::vector<MarkTerm>& terms,
-  const Interaction& interaction, const CellGrid& grid, const MemoryBudget& budget,
-  std::size_t mostCells, const Progress& progress = Progress::none());
+/// does not mark its box. All answers are the same for any number of threads, and whatever is
+/// remembered: blocks of the lattice that the same terms reach as in an earlier search are not
+/// looked at again. One at a time may be asked; terms, interaction and progress have to live as
+/// long.
+class CellMarker
+{
+public:
+  CellMarker(const std::vector<MarkTerm>& terms, const Interaction& interaction,
+    const CellGrid& grid, const MemoryBudget& budget, const Progress& progress = Progress::none());
+  ~CellMarker();
+  CellMarker(const CellMarker&) = delete;
+  CellMarker& operator=(const CellMarker&) = delete;
 
-/// Whether far more than `mostCells` cells would be marked, by a sample: some blocks of cells,
-/// evenly spread, so that two hundred cells or so tell. Takes a fraction of the time of marking; an
-/// estimate, the less certain the nearer to `mostCells` their number is. The same for any number of
-/// threads, and whatever is remembered. \throws TooLarge, Cancelled.
-bool seemFarMoreMarked(const std::vector<MarkTerm>& terms, const Interaction& interaction,
-  const CellGrid& grid, const MemoryBudget& budget, std::size_t mostCells,
-  const Progress& progress = Progress::none());
+  /// Whether more than `count` cells would be marked, by a sample of blocks of cells, which grows
+  /// until some hundred marked cells make it clear, or all but clear. An estimate. Takes a small
+  /// part of the time of marking where `count` is large or far less than there are; and
+  /// mark() takes over what was found. Where few are marked it ends early, and says no.
+  /// \throws TooLarge, Cancelled.
+  bool seemMoreThan(std::size_t count);
 
-/// Forgets the earlier calls; for tests and benchmarks.
+  /// All of them, sorted. The search ends where there are more than `most`.
+  /// \return nothing when there are more. \throws TooLarge when the marked bricks pass the budget;
+  /// Cancelled.
+  std::optional<CellSet> mark(std::size_t most);
+
+private:
+  class Units;
+  const std::unique_ptr<Units> units_;
+};
+
+/// Forgets the earlier searches; for tests and benchmarks.
 void forgetMarks();
 
 } // namespace hybridtree
