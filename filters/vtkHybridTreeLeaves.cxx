@@ -101,7 +101,7 @@ bool staysBehind(vtkDataSetAttributes* data, vtkAbstractArray* array)
   const std::string name = nameOf(array);
   return name.empty() || name == "Normals" || name == "SourceId" ||
     name == vtkDataSetAttributes::GhostArrayName() || array == data->GetNormals() ||
-    array == data->GetGlobalIds() || array->GetDataType() == VTK_VARIANT;
+    array == data->GetGlobalIds();
 }
 
 /// The rows of an array, and no value where a row is -1.
@@ -125,7 +125,8 @@ void takeRows(vtkAbstractArray* from, const std::vector<vtkIdType>& rows, vtkAbs
   to->InsertTuples(targets, sources, from);
 }
 
-/// Arrays that do not have all `count` values are told of in `warnings` and left out.
+/// Arrays that do not have all `count` values are told of in `warnings` and left out, and so are
+/// variants, with which VTK's readers crash.
 void gather(vtkDataSetAttributes* data, vtkIdType count, const std::vector<vtkIdType>& rows,
   const std::string& prefix, LeafArrays& to, std::vector<std::string>& warnings)
 {
@@ -138,7 +139,17 @@ void gather(vtkDataSetAttributes* data, vtkIdType count, const std::vector<vtkId
         std::to_string(array->GetNumberOfTuples()) + " values for " + std::to_string(count) +
         " points or cells of the input: it is left out.");
     }
-    else if (!staysBehind(data, array))
+    else if (staysBehind(data, array))
+    {
+      continue;
+    }
+    else if (array->GetDataType() == VTK_VARIANT)
+    {
+      warnings.push_back("The array \"" + nameOf(array) +
+        "\" holds variants, which do not go through files: it is left out. Make it one of numbers "
+        "or of strings.");
+    }
+    else
     {
       const std::string name = prefix + nameOf(array);
       const auto part = arrayLike(array, name);

@@ -10,6 +10,7 @@
 #include "core/boolean/CutFaces.h"
 #include "core/boolean/MeshSides.h"
 #include "core/boolean/PerturbedPredicates.h"
+#include "core/boolean/SelfCrossing.h"
 #include "core/boolean/TriangleCrossings.h"
 
 #include <algorithm>
@@ -262,6 +263,14 @@ private:
   const Progress& progress_;
 };
 
+// Of both operands, where their triangles cross.
+std::string tellOfSelfCrossing(const MeshOperand& a, const MeshOperand& b)
+{
+  const std::string first = tellOfSelfCrossing(a, "The first operand");
+  const std::string second = tellOfSelfCrossing(b, "The second operand");
+  return first.empty() || second.empty() ? first + second : first + " " + second;
+}
+
 void tell(const MeshOperand& a, const MeshOperand& b, MeshBooleanResult& result)
 {
   for (const MeshOperand* operand : { &a, &b })
@@ -275,9 +284,11 @@ void tell(const MeshOperand& a, const MeshOperand& b, MeshBooleanResult& result)
   }
   if (!result.usable)
   {
-    result.warnings.push_back(
-      "An operand crosses itself where it meets the other, or is inside out "
-      "there: its surface does not tell what is inside.");
+    const std::string crossing = tellOfSelfCrossing(a, b);
+    result.warnings.push_back(!crossing.empty()
+        ? crossing
+        : "An operand is inside out where it meets the other, or covers itself there: its surface "
+          "does not tell what is inside.");
   }
 }
 
@@ -299,7 +310,19 @@ MeshBooleanResult meshBoolean(
   }
   else
   {
-    result = Cut(operation, a, b, progress).run();
+    try
+    {
+      result = Cut(operation, a, b, progress).run();
+    }
+    catch (const InvalidGeometry&)
+    {
+      const std::string crossing = tellOfSelfCrossing(a, b);
+      if (crossing.empty())
+      {
+        throw;
+      }
+      throw InvalidGeometry(crossing);
+    }
   }
   tell(a, b, result);
   progress.report(1.0);

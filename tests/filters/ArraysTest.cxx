@@ -19,6 +19,7 @@
 #include "vtkSphereSource.h"
 #include "vtkStringArray.h"
 #include "vtkTriangle.h"
+#include "vtkVariantArray.h"
 #include "vtkXMLPolyDataReader.h"
 #include "vtkXMLPolyDataWriter.h"
 
@@ -305,6 +306,36 @@ TEST(Arrays, ThoseWithTooFewValuesAreToldAndLeftOut)
   expectSolid(field->GetOutput());
   EXPECT_FALSE(field->GetOutput()->GetPointData()->HasArray("few"));
   EXPECT_FALSE(field->GetOutput()->GetCellData()->HasArray("few"));
+}
+
+TEST(Arrays, VariantsAreToldOnceAndLeftOut)
+{
+  vtkNew<vtkSphereSource> sphere;
+  sphere->Update();
+  vtkPolyData* mesh = sphere->GetOutput();
+  vtkNew<vtkVariantArray> anything;
+  anything->SetName("anything");
+  anything->SetNumberOfTuples(mesh->GetNumberOfCells());
+  mesh->GetCellData()->AddArray(anything);
+  const auto b = ball(0.4);
+  vtkNew<vtkHybridTreeBlend> blend;
+  vtkNew<vtkHybridTreeBoolean> boolean;
+  blend->AddInputData(mesh);
+  blend->AddInputConnection(b->GetOutputPort());
+  boolean->SetInputData(0, mesh);
+  boolean->SetInputConnection(1, b->GetOutputPort());
+  for (vtkHybridTreeAlgorithm* filter : { static_cast<vtkHybridTreeAlgorithm*>(blend.Get()),
+         static_cast<vtkHybridTreeAlgorithm*>(boolean.Get()) })
+  {
+    const Messages messages(filter);
+    filter->Update();
+    const std::size_t first = messages.warnings.find("\"anything\" holds variants");
+    EXPECT_NE(first, std::string::npos) << messages.warnings;
+    EXPECT_EQ(messages.warnings.find("\"anything\"", first + 1), std::string::npos)
+      << messages.warnings;
+    expectSolid(filter->GetOutput());
+    EXPECT_FALSE(filter->GetOutput()->GetCellData()->HasArray("anything"));
+  }
 }
 
 TEST(Arrays, SeamsAreWelded)

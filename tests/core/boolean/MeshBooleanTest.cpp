@@ -364,7 +364,45 @@ TEST(MeshBoolean, OperandThatCrossesItselfAtTheCutIsTold)
   EXPECT_FALSE(result.usable);
   EXPECT_TRUE(result.mesh.empty());
   ASSERT_FALSE(result.warnings.empty());
-  EXPECT_NE(result.warnings.back().find("crosses itself"), std::string::npos);
+  const std::string& warning = result.warnings.back();
+  EXPECT_NE(
+    warning.find("The second operand crosses itself: shells of it overlap"), std::string::npos)
+    << warning;
+  EXPECT_EQ(warning.find("first operand"), std::string::npos) << warning;
+}
+
+// Loose triangles across each other, whose crossings with the other operand have no order.
+TEST(MeshBoolean, ASoupIsToldToCrossItself)
+{
+  Random random(33);
+  TriangleMesh soup;
+  for (std::int32_t k = 0; k < 30; ++k)
+  {
+    for (int corner = 0; corner < 3; ++corner)
+    {
+      soup.points.push_back(Vec3(random.unit(), random.unit(), random.unit()));
+    }
+    soup.triangles.push_back({ 3 * k, 3 * k + 1, 3 * k + 2 });
+  }
+  const TriangleMesh block = box(Vec3(-0.5, -0.4, -0.3), Vec3(0.5, 0.6, 0.7));
+  for (const bool isFirst : { true, false })
+  {
+    const MeshOperand a = operandOf(isFirst ? soup : block);
+    const MeshOperand b = operandOf(isFirst ? block : soup);
+    std::string told;
+    try
+    {
+      const MeshBooleanResult result = meshBoolean(MeshOperation::Union, a, b);
+      EXPECT_FALSE(result.usable);
+      told = result.warnings.back();
+    }
+    catch (const InvalidGeometry& error)
+    {
+      told = error.what();
+    }
+    const std::string name = isFirst ? "The first operand" : "The second operand";
+    EXPECT_NE(told.find(name + " crosses itself"), std::string::npos) << told;
+  }
 }
 
 TEST(MeshBoolean, RefusesCoordinatesBeyondArithmetic)
