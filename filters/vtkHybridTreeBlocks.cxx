@@ -183,6 +183,14 @@ vtkPolyData* requireMesh(vtkDataSet* data)
   return mesh;
 }
 
+void requirePoints(vtkPolyData* input)
+{
+  if (input->GetNumberOfPoints() == 0)
+  {
+    throw InvalidGeometry("The input is empty: it has no points. Check the filter it comes from.");
+  }
+}
+
 void takeComposite(vtkInformation* port)
 {
   port->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");

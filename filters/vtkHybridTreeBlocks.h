@@ -48,6 +48,9 @@ HYBRIDTREEFILTERS_EXPORT vtkSmartPointer<vtkDataSet> joined(const std::vector<Bl
 /// The data set as a mesh. \throws InvalidGeometry that says how to make one of it.
 HYBRIDTREEFILTERS_EXPORT vtkPolyData* requireMesh(vtkDataSet* data);
 
+/// \throws InvalidGeometry when there are no points, as after an error of the filter before.
+void requirePoints(vtkPolyData* input);
+
 /// Lets an input port take composite data as well, whole instead of block by block; and data of
 /// every kind, so that requireMesh() and requireGeometry() can say more of those that are no mesh
 /// than VTK would.

@@ -7,6 +7,7 @@
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
+#include "vtkHybridTreeBlocks.h"
 #include "vtkHybridTreeRangedArray.h"
 #include "vtkIdList.h"
 #include "vtkNew.h"
@@ -366,10 +367,7 @@ void requirePolygons(vtkPolyData* input)
   {
     return;
   }
-  if (input->GetNumberOfPoints() == 0)
-  {
-    throw InvalidGeometry("The input is empty: it has no points. Check the filter it comes from.");
-  }
+  requirePoints(input);
   if (input->GetNumberOfLines() > 0)
   {
     throw InvalidGeometry("The input has " + std::to_string(input->GetNumberOfLines()) +

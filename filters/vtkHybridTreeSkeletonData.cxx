@@ -6,6 +6,7 @@
 #include "vtkCellArrayIterator.h"
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
+#include "vtkHybridTreeBlocks.h"
 #include "vtkIntArray.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
@@ -192,6 +193,7 @@ SkeletonGraph toSkeleton(vtkPolyData* input, const std::string& radiusArray, dou
 {
   if (input->GetNumberOfLines() + input->GetNumberOfPolys() + input->GetNumberOfStrips() == 0)
   {
+    requirePoints(input);
     throw InvalidGeometry("The input has " + std::to_string(input->GetNumberOfPoints()) +
       " points, but neither lines nor polygons, which make the skeleton. Take the Skeleton Editor, "
       "or any polydata with lines or triangles.");

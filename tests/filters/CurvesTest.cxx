@@ -61,19 +61,6 @@ public:
   vtkNew<vtkPolyData> data;
 };
 
-void expectError(vtkHybridTreeAlgorithm* filter, const std::vector<std::string>& words)
-{
-  const Messages messages(filter);
-  filter->Update();
-  for (const std::string& word : words)
-  {
-    EXPECT_NE(messages.errors.find(word), std::string::npos)
-      << "no \"" << word << "\" in: " << messages.errors;
-  }
-  EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
-  EXPECT_FALSE(filter->GetTree());
-}
-
 double volumeOf(vtkPolyData* mesh)
 {
   vtkNew<vtkMassProperties> mass;

@@ -5,6 +5,7 @@
 #include "vtkCallbackCommand.h"
 #include "vtkCellArray.h"
 #include "vtkExecutive.h"
+#include "vtkFieldData.h"
 #include "vtkIdList.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -47,6 +48,20 @@ Messages::~Messages()
   {
     object->RemoveObserver(tag);
   }
+}
+
+void expectError(vtkHybridTreeAlgorithm* filter, const std::vector<std::string>& words)
+{
+  const Messages messages(filter);
+  filter->Update();
+  for (const std::string& word : words)
+  {
+    EXPECT_NE(messages.errors.find(word), std::string::npos)
+      << "no \"" << word << "\" in: " << messages.errors;
+  }
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
+  EXPECT_EQ(filter->GetOutput()->GetFieldData()->GetNumberOfArrays(), 0);
+  EXPECT_FALSE(filter->GetTree());
 }
 
 TriangleMesh trianglesOf(vtkPolyData* data)

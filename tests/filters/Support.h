@@ -48,6 +48,9 @@ private:
   std::vector<std::pair<vtkSmartPointer<vtkObject>, unsigned long>> observers_;
 };
 
+/// Runs a filter; expects an error that has all the words, and an empty output.
+void expectError(vtkHybridTreeAlgorithm* filter, const std::vector<std::string>& words);
+
 /// The triangles of a polydata. Fails the test when there are other cells.
 TriangleMesh trianglesOf(vtkPolyData* data);
 
