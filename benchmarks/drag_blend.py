@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What an update costs in ParaView while something on a scan is dragged: a ball that is blended with
-it, the angle of a bend above that, and beside them, as a peer, the sphere of ParaView's own Clip.
+it, the angle of a bend above that, one of eight regions in which balls on it are blended locally, and
+beside them, as a peer, the sphere of ParaView's own Clip.
 
     pvpython benchmarks/drag_blend.py mesh.ply [updates, default 20]
 
@@ -53,6 +54,11 @@ middle = [(bounds[2 * k] + bounds[2 * k + 1]) / 2 for k in range(3)]
 ball = HybridTreePoint(SurfaceRadius=0.08 * size, InfluenceRadius=0.16 * size)
 blend = HybridTreeBlend(Input=[scan, ball])
 bend = HybridTreeBend(Input=blend, Axis=[0, 1, 0], Normal=[1, 0, 0])
+points = servermanager.Fetch(scan).GetPoints()
+spots = [points.GetPoint((k + 1) * points.GetNumberOfPoints() // 9) for k in range(8)]
+balls = [HybridTreePoint(Center=at, SurfaceRadius=0.015 * size, InfluenceRadius=0.03 * size) for at in spots]
+regions = [HybridTreePoint(Center=at, SurfaceRadius=0.02 * size, InfluenceRadius=0.04 * size) for at in spots]
+local = HybridTreeLocalBlend(A=scan, B=HybridTreeBlend(Input=balls), Region=regions)
 clip = Clip(Input=scan, ClipType="Sphere", Crinkleclip=0, Invert=0)
 clip.ClipType.Radius = 0.12 * size
 
@@ -61,8 +67,14 @@ def place(step):
     return [middle[0] + 0.005 * size * (step % 10), middle[1], bounds[5]]
 
 
+def beside(spot, step):
+    return [spot[0] + 0.001 * size * (step % 10), spot[1], spot[2]]
+
+
 print(f"{'milliseconds of':24} {'an update':>15} {'that drawn':>15}")
 print(f"{'dragged':14} {'triangles':>9}" + 2 * f" {'wall':>7} {'CPU':>7}")
 measure("ball of blend", blend, lambda step: setattr(ball, "Center", place(step)))
 measure("angle of bend", bend, lambda step: setattr(bend, "Angle", 20.0 + 0.5 * step))
+measure("local's region", local, lambda step: setattr(regions[7], "Center", beside(spots[7], step)))
+measure("local's ball", local, lambda step: setattr(balls[7], "Center", beside(spots[7], step)))
 measure("Clip's sphere", clip, lambda step: setattr(clip.ClipType, "Center", place(step)))
