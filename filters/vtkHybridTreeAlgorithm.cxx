@@ -390,7 +390,7 @@ void vtkHybridTreeAlgorithm::WriteOutput(
     const bool splits = this->PointNormals == NORMALS_SPLIT;
     const MeshPtr shown = splits ? hybridtree::splitAtSharpEdges(mesh) : mesh;
     hybridtree::toPolyData(shown, splits || this->NeedsNormals(*mesh), output);
-    this->Warn(hybridtree::passArrays(arrays, leaves, *shown, output));
+    this->Warn(hybridtree::passArrays(arrays, *state.Node, leaves, *shown, output));
   }
   hybridtree::putNames(leaves, output->GetFieldData());
   hybridtree::putArrays(arrays, leaves, output->GetFieldData());

@@ -23,8 +23,8 @@ bool isReal(vtkAbstractArray* array)
 class VertexValues
 {
 public:
-  VertexValues(const TriangleMesh& mesh, const std::vector<Leaf>& leaves)
-    : mesh_(mesh), leaves_(leaves)
+  VertexValues(const std::vector<VertexOrigin>& places, const std::vector<Leaf>& leaves)
+    : places_(places), leaves_(leaves)
   {
     ids_->SetNumberOfIds(3);
   }
@@ -32,10 +32,10 @@ public:
   bool fill(const LeafColumn& column, vtkAbstractArray* result) const
   {
     const bool real = isReal(result);
-    bool all = mesh_.vertexOrigin.size() == mesh_.points.size();
-    for (std::size_t v = 0; v < mesh_.vertexOrigin.size(); ++v)
+    bool all = true;
+    for (std::size_t v = 0; v < places_.size(); ++v)
     {
-      const VertexOrigin& origin = mesh_.vertexOrigin[v];
+      const VertexOrigin& origin = places_[v];
       vtkAbstractArray* source = origin.leaf < 0 || origin.triangle < 0
         ? nullptr
         : column.sources[static_cast<std::size_t>(origin.leaf)];
@@ -68,7 +68,7 @@ private:
     result->InterpolateTuple(row, ids_, source, weights);
   }
 
-  const TriangleMesh& mesh_;
+  const std::vector<VertexOrigin>& places_;
   const std::vector<Leaf>& leaves_;
   vtkNew<vtkIdList> ids_;
 };
@@ -126,24 +126,24 @@ vtkSmartPointer<vtkAbstractArray> startColumn(
   return result;
 }
 
-bool fillPoints(const TriangleMesh& mesh, const std::vector<Leaf>& leaves, const LeafColumn& column,
-  vtkAbstractArray* result)
+bool fillPoints(const std::vector<VertexOrigin>& places, const std::vector<Leaf>& leaves,
+  const LeafColumn& column, vtkAbstractArray* result)
 {
-  return VertexValues(mesh, leaves).fill(column, result);
+  return VertexValues(places, leaves).fill(column, result);
 }
 
-bool fillCells(const TriangleMesh& mesh, const LeafColumn& column, vtkAbstractArray* result)
+bool fillCells(
+  const std::vector<VertexOrigin>& places, const LeafColumn& column, vtkAbstractArray* result)
 {
-  bool all = mesh.sourceTriangle.size() == mesh.triangles.size();
-  for (std::size_t t = 0; t < mesh.sourceTriangle.size(); ++t)
+  bool all = true;
+  for (std::size_t t = 0; t < places.size(); ++t)
   {
-    const std::int32_t leaf = mesh.sourceLeaf[t];
-    vtkAbstractArray* source = leaf < 0 || mesh.sourceTriangle[t] < 0
-      ? nullptr
-      : column.sources[static_cast<std::size_t>(leaf)];
+    const auto& [leaf, triangle, u, v] = places[t];
+    vtkAbstractArray* source =
+      leaf < 0 || triangle < 0 ? nullptr : column.sources[static_cast<std::size_t>(leaf)];
     if (source)
     {
-      result->SetTuple(static_cast<vtkIdType>(t), mesh.sourceTriangle[t], source);
+      result->SetTuple(static_cast<vtkIdType>(t), triangle, source);
     }
     all = all && source;
   }

@@ -36,13 +36,14 @@ void fillWithNothing(vtkAbstractArray* array);
 vtkSmartPointer<vtkAbstractArray> startColumn(
   const std::string& name, LeafColumn& column, std::size_t rows, std::vector<std::string>& untold);
 
-/// Values at the vertices that lie on leaves: interpolated where they are real numbers, else those
-/// of the nearest corner. Returns whether all vertices have one.
-bool fillPoints(const TriangleMesh& mesh, const std::vector<Leaf>& leaves, const LeafColumn& column,
-  vtkAbstractArray* result);
+/// Values at the vertices that have a place on a leaf: interpolated where they are real numbers,
+/// else those of the nearest corner. Returns whether all vertices have one.
+bool fillPoints(const std::vector<VertexOrigin>& places, const std::vector<Leaf>& leaves,
+  const LeafColumn& column, vtkAbstractArray* result);
 
-/// Values of the triangles that are, or are a part of, one of a leaf. Returns whether all are.
-bool fillCells(const TriangleMesh& mesh, const LeafColumn& column, vtkAbstractArray* result);
+/// Values of the triangles that have a place on one of a leaf. Returns whether all have.
+bool fillCells(
+  const std::vector<VertexOrigin>& places, const LeafColumn& column, vtkAbstractArray* result);
 
 } // namespace hybridtree
 

@@ -7,6 +7,7 @@
 #include "vtkDataArray.h"
 #include "vtkFieldData.h"
 #include "vtkHybridTreeLeafColumns.h"
+#include "vtkHybridTreeLeafPlaces.h"
 #include "vtkIdList.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
@@ -432,16 +433,21 @@ void putArrays(const LeafArrays& arrays, const std::vector<Leaf>& leaves, vtkFie
   }
 }
 
-std::vector<std::string> passArrays(const LeafArrays& arrays, const std::vector<Leaf>& leaves,
-  const TriangleMesh& mesh, vtkPolyData* output)
+std::vector<std::string> passArrays(const LeafArrays& arrays, const Node& tree,
+  const std::vector<Leaf>& leaves, const TriangleMesh& mesh, vtkPolyData* output)
 {
+  if (arrays.empty())
+  {
+    return {};
+  }
+  const LeafPlacesOfMesh places = placesOnLeaves(tree, mesh);
   std::vector<std::string> untold;
   std::set<std::string> completePoints;
   std::set<std::string> completeCells;
   for (auto& [name, column] : columnsOf(arrays, leaves, kPointData))
   {
     const auto result = startColumn(name, column, mesh.points.size(), untold);
-    if (fillPoints(mesh, leaves, column, result))
+    if (fillPoints(places.points, leaves, column, result))
     {
       completePoints.insert(name);
     }
@@ -450,7 +456,7 @@ std::vector<std::string> passArrays(const LeafArrays& arrays, const std::vector<
   for (auto& [name, column] : columnsOf(arrays, leaves, kCellData))
   {
     const auto result = startColumn(name, column, mesh.triangles.size(), untold);
-    if (fillCells(mesh, column, result))
+    if (fillCells(places.triangles, column, result))
     {
       completeCells.insert(name);
     }

@@ -71,14 +71,14 @@ std::string fingerprintText(vtkPolyData* mesh);
 /// Finds the meshes that putMeshes() has put there. It throws InvalidText for a damaged one.
 MeshLookup meshesIn(vtkFieldData* data);
 
-/// Gives the output its leaves' point and cell arrays where its vertices and triangles come from
-/// mesh leaves: interpolated within the leaf's triangle (real numbers) or taken from its nearest
-/// corner (integers and text); copied for cells. NaN, 0 or "" elsewhere. Arrays of one name from
-/// several leaves become one array, of the type of the first; the return value names those that
-/// could not. Active scalars, vectors, texture coordinates and tensors are those of the first leaf
-/// that has some, scalars only where all of the output has a value.
-std::vector<std::string> passArrays(const LeafArrays& arrays, const std::vector<Leaf>& leaves,
-  const TriangleMesh& mesh, vtkPolyData* output);
+/// Gives the output its leaves' point and cell arrays, at the places that placesOnLeaves() gives
+/// its vertices and triangles: interpolated within the leaf's triangle (real numbers) or taken from
+/// its nearest corner (integers and text); copied for cells. NaN, 0 or "" elsewhere. Arrays of one
+/// name from several leaves become one array, of the type of the first; the return value names
+/// those that could not. Active scalars, vectors, texture coordinates and tensors are those of the
+/// first leaf that has some, scalars only where all of the output has a value.
+std::vector<std::string> passArrays(const LeafArrays& arrays, const Node& tree,
+  const std::vector<Leaf>& leaves, const TriangleMesh& mesh, vtkPolyData* output);
 
 } // namespace hybridtree
 

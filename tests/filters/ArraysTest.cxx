@@ -150,7 +150,7 @@ TEST(Arrays, ScalarsOfAPartAreNotActive)
 {
   const auto sphere = paintedSphere();
   sphere->GetPointData()->SetActiveScalars("Height");
-  const auto round = ball();
+  const auto round = ball(0.9); // out of the mesh's reach
   vtkNew<vtkHybridTreeBlend> blend;
   blend->AddInputData(sphere);
   blend->AddInputConnection(round->GetOutputPort());
