@@ -16,28 +16,35 @@ constexpr double kSamplesPerPoint = 5.0;
 constexpr double kPoint = 0.085; // to place and to connect
 
 // The work is at the border, which is cut, joined and mended: the less for each cell the more there
-// are, since ever more of them only lie above others. Where little is marked, and the choice is
-// open, much that is inside comes with it.
-constexpr double kCell = 0.05; // to mark
-constexpr double kSamplesPerCell = 1.0;
-constexpr double kBorder = 31.0;
+// are, since ever more of them only lie above others. What is inside comes with it. On meshes the
+// border was measured to take less than half as much.
+constexpr double kCell = 0.06; // to mark
+constexpr double kSamplesPerCell = 1.15;
+constexpr double kBorder = 20.4;
+constexpr double kBorderOnMeshes = 8.0;
 constexpr double kBorderPower = 0.72;
-constexpr double kLeastBorder = 0.5; // of all marked cells, where they are few
+
+// Marked cells are rings and patches: so many are at the border, before they are known.
+constexpr double kUsualBorder = 4.0;
+constexpr double kUsualBorderPower = 0.73;
 
 // To look for the points on sharp edges, for each cell of their length: of the whole lattice, or of
 // the share of the surface that is made anew.
 constexpr double kCrease = 20.0;
 constexpr double kCellsPerSquare = 4.0;
 
-// Per square of what is kept: three triangles, checked and copied.
-constexpr double kKeptSquare = 0.11;
+// Per square of what is kept: three triangles, checked and copied; and made, which takes the more
+// the more a sample does. Only meshes are there already.
+constexpr double kKeptSquare = 0.12;
+constexpr double kSamplesPerKeptSquare = 3.45;
 
-// The estimate is right to about a tenth. Where it is not, the lattice shall be what was taken too
-// often.
-constexpr double kDoubt = 1.15;
+// Marking is a twentieth of all, and then it is done.
+constexpr double kLeftToDo = 0.95;
 
-// On meshes it is less sure, and far more is lost where local would have been faster.
-constexpr double kDoubtOnMeshes = 0.93;
+double usualBorder(double cells)
+{
+  return std::min(cells, kUsualBorder * std::pow(cells, kUsualBorderPower));
+}
 
 } // namespace
 
@@ -51,16 +58,17 @@ double BlendCost::global(const Surface& surface) const
 bool BlendCost::isLocalCheaper(const CellSet& cells, const Surface& surface) const
 {
   const auto count = static_cast<double>(cells.size());
-  return this->local(count, static_cast<double>(cells.borderCount()), surface) <=
+  return kLeftToDo * this->local(count, static_cast<double>(cells.borderCount()), surface) <=
     this->global(surface);
 }
 
 double BlendCost::local(double cells, double border, const Surface& surface) const
 {
   const double anew = std::min(cells / (kCellsPerSquare * surface.kept + 1.0), 1.0);
-  return (faceted_ ? kDoubtOnMeshes : kDoubt) *
-    (kBorder * std::pow(border, kBorderPower) + cells * (kCell + kSamplesPerCell * sample_.inCell) +
-      kKeptSquare * surface.kept + anew * kCrease * surface.creases);
+  const double toMake = faceted_ ? 0.0 : kSamplesPerKeptSquare * sample_.onSurface;
+  return (faceted_ ? kBorderOnMeshes : kBorder) * std::pow(border, kBorderPower) +
+    cells * (kCell + kSamplesPerCell * sample_.inCell) + (kKeptSquare + toMake) * surface.kept +
+    anew * kCrease * surface.creases;
 }
 
 std::size_t BlendCost::mostCells(const Surface& surface) const
@@ -71,7 +79,7 @@ std::size_t BlendCost::mostCells(const Surface& surface) const
   while (most - least > 1.0 + 0.01 * least)
   {
     const double middle = std::sqrt((least + 1.0) * most);
-    (this->local(middle, kLeastBorder * middle, surface) <= global ? least : most) = middle;
+    (this->local(middle, usualBorder(middle), surface) <= global ? least : most) = middle;
   }
   return static_cast<std::size_t>(least);
 }

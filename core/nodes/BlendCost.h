@@ -10,7 +10,8 @@ namespace hybridtree
 
 /// What the ways to mesh a blend cost, by counting what they do: to choose the cheapest. Costs are
 /// microseconds of one processor; only their ratios matter. The counts are those of the case; what
-/// one of each costs was fitted to pairs of balls and to blends on meshes.
+/// one of each costs was fitted to blends of skeletons and on meshes where both ways are about as
+/// fast (docs/figures.md).
 class BlendCost
 {
 public:
@@ -32,11 +33,11 @@ public:
   /// \param faceted whether meshes are blended (Node::isFaceted()).
   BlendCost(const Sample& sample, bool faceted) : sample_(sample), faceted_(faceted) {}
 
-  /// Whether a patch over marked cells, and the copy of what is kept, cost less than the whole
-  /// lattice.
+  /// Whether a patch over cells that have been marked, and the copy of what is kept, cost less than
+  /// the whole lattice.
   bool isLocalCheaper(const CellSet& cells, const Surface& surface) const;
 
-  /// With more marked cells than this it hardly ever is: no need to find them all.
+  /// With more cells than this to mark it is not, with a border as is usual.
   std::size_t mostCells(const Surface& surface) const;
 
 private:

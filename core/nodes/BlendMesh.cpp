@@ -390,7 +390,7 @@ TriangleMesh meshByParts(const Node& blend, const std::vector<BlendPart>& parts,
     std::optional<CellSet> cells;
     if (!marker->seemMoreThan(most))
     {
-      cells = marker->mark(most);
+      cells = marker->mark(most + most / 4); // by their border, then
     }
     return cells && cost.isLocalCheaper(*cells, surface) ? cells : std::nullopt;
   };
