@@ -159,6 +159,15 @@ protected:
     return mesh;
   }
 
+  MeshPtr findOtherMesh(
+    double edgeLength, const Deformation& by, const Progress& progress) const override
+  {
+    const BlendMesher mesher(*this, this->meshParts(), options_, edgeLength);
+    return blendMeshToDeform(
+      mesher, by, meshWarnings_,
+      [&](const auto& make) { return this->keptOtherMesh(edgeLength, nullptr, make); }, progress);
+  }
+
   NodePtr withChildren(std::vector<NodePtr> children) const override
   {
     return makeBlend(std::move(children), options_);

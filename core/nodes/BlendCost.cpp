@@ -41,12 +41,12 @@ constexpr double kSamplesPerKeptSquare = 3.45;
 // Marking is a twentieth of all, and then it is done.
 constexpr double kLeftToDo = 0.95;
 
-double usualBorder(double cells)
+} // namespace
+
+double BlendCost::usualBorder(double cells)
 {
   return std::min(cells, kUsualBorder * std::pow(cells, kUsualBorderPower));
 }
-
-} // namespace
 
 double BlendCost::global(const Surface& surface) const
 {
@@ -73,13 +73,19 @@ double BlendCost::local(double cells, double border, const Surface& surface) con
 
 std::size_t BlendCost::mostCells(const Surface& surface) const
 {
-  const double global = this->global(surface);
+  return BlendCost::mostCells([&](double cells)
+    { return this->local(cells, BlendCost::usualBorder(cells), surface); },
+    this->global(surface));
+}
+
+std::size_t BlendCost::mostCells(const std::function<double(double)>& costOfCells, double most)
+{
   double least = 0.0;
-  double most = 1e15;
-  while (most - least > 1.0 + 0.01 * least)
+  double tooMany = 1e15;
+  while (tooMany - least > 1.0 + 0.01 * least)
   {
-    const double middle = std::sqrt((least + 1.0) * most);
-    (this->local(middle, usualBorder(middle), surface) <= global ? least : most) = middle;
+    const double middle = std::sqrt((least + 1.0) * tooMany);
+    (costOfCells(middle) <= most ? least : tooMany) = middle;
   }
   return static_cast<std::size_t>(least);
 }

@@ -4,6 +4,7 @@
 #include "core/stitch/CellSet.h"
 
 #include <cstddef>
+#include <functional>
 
 namespace hybridtree
 {
@@ -40,10 +41,19 @@ public:
   /// With more cells than this to mark it is not, with a border as is usual.
   std::size_t mostCells(const Surface& surface) const;
 
-private:
+  ///@{
+  /// Of the whole lattice, and of a patch and what is kept.
+  /// \param border of the cells: those with a neighbour that is not marked.
   double global(const Surface& surface) const;
   double local(double cells, double border, const Surface& surface) const;
+  ///@}
 
+  /// As is usual for so many cells.
+  static double usualBorder(double cells);
+  /// The largest number of cells for which rising costs are at most `most`.
+  static std::size_t mostCells(const std::function<double(double)>& costOfCells, double most);
+
+private:
   Sample sample_;
   bool faceted_;
 };

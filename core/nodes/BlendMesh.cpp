@@ -3,8 +3,9 @@
 
 #include "core/base/Dependency.h"
 #include "core/geometry/BoxUnion.h"
-#include "core/nodes/BlendCost.h"
+#include "core/nodes/BlendChoice.h"
 #include "core/nodes/BlendEstimate.h"
+#include "core/nodes/BlendInteraction.h"
 #include "core/nodes/BlendSource.h"
 #include "core/nodes/LatticeMesh.h"
 #include "core/nodes/NearDependencies.h"
@@ -13,8 +14,8 @@
 #include "core/stitch/Stitch.h"
 
 #include <algorithm>
-#include <limits>
 #include <optional>
+#include <utility>
 
 namespace hybridtree
 {
@@ -22,88 +23,6 @@ namespace
 {
 
 constexpr std::size_t kMaxBytes = std::size_t(8) << 30;
-
-/// Of a sum of fields: two that meet, or one without a mesh. What only carves has no surface.
-class SumInteraction final : public Interaction
-{
-public:
-  int kind() const override { return 0; }
-
-  bool marks(const std::vector<MarkTerm>& terms, const std::vector<int>& present) const override
-  {
-    const auto isPositive = [&](int k) { return !terms[k].node->isNegative(); };
-    const auto givesUp = [&](int k) { return isPositive(k) && !terms[k].kept; };
-    return present.size() > 1 ? std::any_of(present.begin(), present.end(), isPositive)
-                              : present.size() == 1 && givesUp(present.front());
-  }
-
-  Interval range(const std::vector<int>&, const std::vector<Interval>& ranges) const override
-  {
-    Interval sum;
-    for (const Interval& range : ranges)
-    {
-      sum = sum + range;
-    }
-    return sum;
-  }
-};
-
-/// Of a local blend over A, B, region and their union: only where all three are there it is not the
-/// union.
-class LocalInteraction final : public Interaction
-{
-public:
-  int kind() const override { return 1; }
-
-  bool marks(const std::vector<MarkTerm>& terms, const std::vector<int>& present) const override
-  {
-    bool has[4] = {};
-    for (const int k : present)
-    {
-      has[k] = true;
-    }
-    return (has[0] && has[1] && has[2]) || (has[3] && !terms[3].kept);
-  }
-
-  Interval range(
-    const std::vector<int>& present, const std::vector<Interval>& ranges) const override
-  {
-    // Between the least of the union, and the sum.
-    Interval all{ 0.0, 0.0 };
-    for (std::size_t k = 0; k < present.size(); ++k)
-    {
-      if (present[k] != 2)
-      {
-        all = { all.min + std::min(ranges[k].min, 0.0), all.max + std::max(ranges[k].max, 0.0) };
-      }
-    }
-    return all;
-  }
-};
-
-constexpr std::size_t kAllCells = std::numeric_limits<std::size_t>::max();
-
-/// Area of what is kept, in squared cells.
-double squaresOf(const std::vector<KeptPart>& kept, double cellSize)
-{
-  double area = 0.0;
-  for (const KeptPart& part : kept)
-  {
-    area += KeptMesh::of(part.mesh)->area();
-  }
-  return area / (cellSize * cellSize);
-}
-
-/// Length of the sharp edges of meshes that are leaves, in cells.
-double creasesOf(const std::vector<KeptPart>& kept, double cellSize)
-{
-  double length = 0.0;
-  for (const KeptPart& part : kept)
-  {
-    length += part.isLeaf ? KeptMesh::of(part.mesh)->creaseLength() : 0.0;
-  }
-  return length / cellSize;
-}
 
 /// The cells that are the same for all methods: what is too thin for them is so for each.
 CellGrid gridOf(const Node& blend, double edgeLength)
@@ -288,35 +207,6 @@ public:
   }
 };
 
-TriangleMesh stitchOver(const Node& blend, const IslandField& field,
-  const std::vector<KeptPart>& kept, CellSet cells, const CellGrid& grid, BlendMeshReport& report,
-  const Progress& progress)
-{
-  report.markedCells = cells.size();
-  report.borderCells = cells.borderCount();
-  StitchOptions options;
-  options.grid = grid;
-  options.maxBytes = kMaxBytes;
-  std::optional<StitchedMesh> stitched =
-    stitch(field, kept, std::move(cells), options, ProgressPart(progress, 0.0, 0.9));
-  if (!stitched)
-  {
-    report.warning = "The blend could not be joined to the meshes of its operands; all of it was "
-                     "polygonized anew. A shorter edge length may help.";
-    report.rounds = options.maxRounds;
-    return wholeLattice(blend, grid, report, progress);
-  }
-  report.samplePoints = stitched->samplePoints;
-  report.keptTriangles = stitched->keptTriangles;
-  report.cutTriangles = stitched->cutTriangles;
-  report.newTriangles = stitched->mesh.triangles.size() - stitched->keptTriangles;
-  report.islands = stitched->islands;
-  report.rememberedIslands = stitched->remembered;
-  report.rounds = stitched->rounds;
-  noteStitched(blend, grid.cellSize);
-  return std::move(stitched->mesh);
-}
-
 double ratioOf(std::size_t part, const std::vector<Box3>& boxes)
 {
   std::vector<Box3> others;
@@ -369,101 +259,225 @@ std::size_t keepingCount(const std::vector<MarkTerm>& terms)
     std::count_if(terms.begin(), terms.end(), [](const MarkTerm& term) { return term.kept; }));
 }
 
-/// The way from parts to a mesh, which is the same for all blends.
-TriangleMesh meshByParts(const Node& blend, const std::vector<BlendPart>& parts,
-  std::vector<MarkTerm> terms, const Interaction& interaction, const IslandField& field,
-  const BlendOptions& options, double edgeLength, BlendMeshReport& report, const Progress& progress)
+std::vector<MeshPtr> meshesOf(const std::vector<KeptPart>& kept)
 {
-  report.method = options.method;
-  const bool choose = options.method == BlendMethod::Automatic;
-  const BlendCost cost(
-    choose ? sampleCost(terms, edgeLength) : BlendCost::Sample{ 0.0, 0.0 }, blend.isFaceted());
-  const MemoryBudget budget{ kMaxBytes, edgeLength };
-  const CellGrid grid = gridOf(blend, edgeLength);
-  const ProgressPart marking(progress, 0.3, 0.4);
-  std::optional<CellMarker> marker;
-  marker.emplace(terms, interaction, grid, budget, marking);
-  const double givenUp = choose ? squaresGivenUp(terms, grid.cellSize) : 0.0;
-  const auto markIfCheaper = [&](const BlendCost::Surface& surface)
+  std::vector<MeshPtr> meshes;
+  for (const KeptPart& part : kept)
   {
-    const std::size_t most = cost.mostCells(surface);
-    std::optional<CellSet> cells;
-    if (!marker->seemMoreThan(most))
-    {
-      cells = marker->mark(most + most / 4); // by their border, then
-    }
-    return cells && cost.isLocalCheaper(*cells, surface) ? cells : std::nullopt;
-  };
-  std::optional<CellSet> cells;
-  // Skeletons are sampled whole in no time: there the choice comes before anything is meshed.
-  const bool chooseFirst = choose && !blend.isFaceted();
-  if (chooseFirst)
-  {
-    cells = markIfCheaper({ squaresByPoints(terms, edgeLength), givenUp });
+    meshes.push_back(part.mesh);
   }
-  if (chooseFirst && !cells)
-  {
-    return wholeLattice(blend, grid, report, progress);
-  }
-  const std::size_t keeping = keepingCount(terms);
-  const std::vector<KeptPart> kept =
-    keptMeshes(parts, terms, edgeLength, report, ProgressPart(progress, 0.0, 0.3));
-  if (kept.empty())
-  {
-    return wholeLattice(blend, grid, report, ProgressPart(progress, 0.3, 1.0));
-  }
-  if (!chooseFirst || keepingCount(terms) < keeping)
-  {
-    const bool byCost = choose && !isFinerThanLattice(parts, terms, edgeLength);
-    const auto surface = [&]() -> BlendCost::Surface {
-      return { squaresOf(kept, edgeLength), givenUp, creasesOf(kept, edgeLength) };
-    };
-    marker.emplace(terms, interaction, grid, budget, marking); // the terms may have changed
-    cells = byCost ? markIfCheaper(surface()) : marker->mark(kAllCells);
-  }
-  const ProgressPart rest(progress, 0.4, 1.0);
-  return cells ? stitchOver(blend, field, kept, std::move(*cells), grid, report, rest)
-               : wholeLattice(blend, grid, report, rest);
+  return meshes;
+}
+
+std::vector<BlendPart> inOrder(std::vector<BlendPart> parts)
+{
+  std::sort(parts.begin(), parts.end(),
+    [](const BlendPart& a, const BlendPart& b) { return a.firstLeaf < b.firstLeaf; });
+  return parts;
 }
 
 } // namespace
 
+BlendMesher::BlendMesher(
+  const Node& blend, std::vector<BlendPart> parts, const BlendOptions& options, double edgeLength)
+  : blend_(blend)
+  , parts_(inOrder(std::move(parts)))
+  , terms_(termsOf(parts_, options.overlapThreshold))
+  , shapes_(terms_)
+  , interaction_(std::make_unique<SumInteraction>())
+  , field_(std::make_unique<SumIslandField>(blend, parts_))
+  , method_(options.method)
+  , grid_(gridOf(blend, edgeLength))
+{
+}
+
+BlendMesher::BlendMesher(
+  const Node& blend, const LocalBlendParts& local, const BlendOptions& options, double edgeLength)
+  : blend_(blend)
+  , parts_{ { local.a }, { local.b }, { local.region }, { local.unionOfBoth } }
+  , terms_{ { local.a, false }, { local.b, false }, { local.region, false },
+    { local.unionOfBoth, true } }
+  , shapes_{ terms_.back() }
+  , interaction_(std::make_unique<LocalInteraction>())
+  , field_(std::make_unique<LocalIslandField>(blend))
+  , method_(options.method)
+  , grid_(gridOf(blend, edgeLength))
+{
+}
+
+BlendMesher::~BlendMesher() = default;
+
+BlendCost BlendMesher::cost() const
+{
+  return BlendCost(sampleCost(terms_, grid_.cellSize), blend_.isFaceted());
+}
+
+DeformedBlendCost BlendMesher::costToDeform(double growth) const
+{
+  return DeformedBlendCost(this->cost(), sampleCost(terms_, grid_.cellSize), growth);
+}
+
+TriangleMesh BlendMesher::mesh(BlendMeshReport& report, const Progress& progress) const
+{
+  report = {};
+  if (blend_.isNegative())
+  {
+    return {};
+  }
+  if (method_ == BlendMethod::Global)
+  {
+    return wholeLattice(blend_, grid_, report, progress);
+  }
+  report.method = method_;
+  std::vector<MarkTerm> terms = terms_;
+  const MemoryBudget budget{ kMaxBytes, grid_.cellSize };
+  const ProgressPart marking(progress, 0.3, 0.4);
+  std::optional<CellSet> cells;
+  if (this->choosesFirst())
+  {
+    cells = BlendChoice(terms, *interaction_, grid_, budget, marking).byTerms(this->cost());
+    if (!cells)
+    {
+      return wholeLattice(blend_, grid_, report, progress);
+    }
+  }
+  const std::size_t keeping = keepingCount(terms);
+  const std::vector<KeptPart> kept =
+    keptMeshes(parts_, terms, grid_.cellSize, report, ProgressPart(progress, 0.0, 0.3));
+  if (kept.empty())
+  {
+    return wholeLattice(blend_, grid_, report, ProgressPart(progress, 0.3, 1.0));
+  }
+  if (!this->choosesFirst() || keepingCount(terms) < keeping)
+  {
+    const bool byCost =
+      method_ == BlendMethod::Automatic && !isFinerThanLattice(parts_, terms, grid_.cellSize);
+    BlendChoice choice(terms, *interaction_, grid_, budget, marking);
+    cells = byCost ? choice.byMeshes(this->cost(), kept) : choice.markAll();
+  }
+  const ProgressPart rest(progress, 0.4, 1.0);
+  std::optional<TriangleMesh> mesh =
+    cells ? stitchOver(kept, std::move(*cells), report, rest) : std::nullopt;
+  if (!mesh)
+  {
+    return wholeLattice(blend_, grid_, report, rest);
+  }
+  noteStitched(blend_, grid_.cellSize);
+  return std::move(*mesh);
+}
+
+std::optional<BlendPatch> BlendMesher::patchToDeform(
+  const Deformation& by, const Progress& progress) const
+{
+  if (method_ != BlendMethod::Automatic || blend_.isNegative())
+  {
+    return std::nullopt;
+  }
+  std::vector<MarkTerm> terms = terms_;
+  const MemoryBudget budget{ kMaxBytes, grid_.cellSize };
+  const ProgressPart marking(progress, 0.3, 0.4);
+  // Only where it is the lattice that is chosen, and would have to be mended.
+  const auto isToBeMended = [&](const SurfaceStretch& stretch)
+  { return stretch.spoilsShapes && stretch.isOneToOne; };
+  std::optional<CellSet> cells;
+  if (this->choosesFirst())
+  {
+    const BlendSample sample(blend_, shapes_, grid_.cellSize);
+    const SurfaceStretch stretch = stretchOf(by, sample.surface(), grid_.cellSize);
+    BlendChoice choice(terms, *interaction_, grid_, budget, marking);
+    if (isToBeMended(stretch) && !choice.byTerms(this->cost()))
+    {
+      cells = choice.bySample(this->costToDeform(stretch.growth), sample);
+    }
+    if (!cells)
+    {
+      return std::nullopt;
+    }
+  }
+  const std::size_t keeping = keepingCount(terms);
+  BlendMeshReport report;
+  std::vector<KeptPart> kept =
+    keptMeshes(parts_, terms, grid_.cellSize, report, ProgressPart(progress, 0.0, 0.3));
+  if (kept.empty() || (cells && keepingCount(terms) < keeping))
+  {
+    return std::nullopt;
+  }
+  if (!cells && !isFinerThanLattice(parts_, terms, grid_.cellSize))
+  {
+    const SurfaceStretch stretch = stretchOf(by, sampleSurfaces(meshesOf(kept)), grid_.cellSize);
+    BlendChoice choice(terms, *interaction_, grid_, budget, marking);
+    if (isToBeMended(stretch) && !choice.byMeshes(this->cost(), kept))
+    {
+      cells = choice.byMeshes(this->costToDeform(stretch.growth), kept);
+    }
+  }
+  return cells ? std::optional<BlendPatch>({ std::move(kept), std::move(*cells) }) : std::nullopt;
+}
+
+std::optional<TriangleMesh> BlendMesher::meshOver(
+  BlendPatch patch, BlendMeshReport& report, const Progress& progress) const
+{
+  report = {};
+  report.method = method_;
+  return this->stitchOver(patch.kept, std::move(patch.cells), report, progress);
+}
+
+std::optional<TriangleMesh> BlendMesher::stitchOver(const std::vector<KeptPart>& kept,
+  CellSet cells, BlendMeshReport& report, const Progress& progress) const
+{
+  report.markedCells = cells.size();
+  report.borderCells = cells.borderCount();
+  StitchOptions options;
+  options.grid = grid_;
+  options.maxBytes = kMaxBytes;
+  std::optional<StitchedMesh> stitched =
+    stitch(*field_, kept, std::move(cells), options, ProgressPart(progress, 0.0, 0.9));
+  if (!stitched)
+  {
+    report.warning = "The blend could not be joined to the meshes of its operands; all of it was "
+                     "polygonized anew. A shorter edge length may help.";
+    report.rounds = options.maxRounds;
+    return std::nullopt;
+  }
+  report.samplePoints = stitched->samplePoints;
+  report.keptTriangles = stitched->keptTriangles;
+  report.cutTriangles = stitched->cutTriangles;
+  report.newTriangles = stitched->mesh.triangles.size() - stitched->keptTriangles;
+  report.islands = stitched->islands;
+  report.rememberedIslands = stitched->remembered;
+  report.rounds = stitched->rounds;
+  return std::move(stitched->mesh);
+}
+
 TriangleMesh blendMesh(const Node& blend, std::vector<BlendPart> parts, const BlendOptions& options,
   double edgeLength, BlendMeshReport& report, const Progress& progress)
 {
-  report = {};
-  if (blend.isNegative())
-  {
-    return {};
-  }
-  if (options.method == BlendMethod::Global)
-  {
-    return wholeLattice(blend, gridOf(blend, edgeLength), report, progress);
-  }
-  std::sort(parts.begin(), parts.end(),
-    [](const BlendPart& a, const BlendPart& b) { return a.firstLeaf < b.firstLeaf; });
-  return meshByParts(blend, parts, termsOf(parts, options.overlapThreshold), SumInteraction(),
-    SumIslandField(blend, parts), options, edgeLength, report, progress);
+  return BlendMesher(blend, std::move(parts), options, edgeLength).mesh(report, progress);
 }
 
-TriangleMesh localBlendMesh(const Node& blend, const LocalBlendParts& local,
+TriangleMesh localBlendMesh(const Node& blend, const LocalBlendParts& parts,
   const BlendOptions& options, double edgeLength, BlendMeshReport& report, const Progress& progress)
 {
-  report = {};
-  if (blend.isNegative())
+  return BlendMesher(blend, parts, options, edgeLength).mesh(report, progress);
+}
+
+MeshPtr blendMeshToDeform(const BlendMesher& mesher, const Deformation& by,
+  const MeshWarnings& warnings, const KeepMesh& keep, const Progress& progress)
+{
+  std::optional<BlendPatch> patch = mesher.patchToDeform(by, progress);
+  if (!patch)
   {
-    return {};
+    return nullptr;
   }
-  if (options.method == BlendMethod::Global)
-  {
-    return wholeLattice(blend, gridOf(blend, edgeLength), report, progress);
-  }
-  const std::vector<MarkTerm> terms{ { local.a, false }, { local.b, false },
-    { local.region, false }, { local.unionOfBoth, true } };
-  const std::vector<BlendPart> parts{ { local.a }, { local.b }, { local.region },
-    { local.unionOfBoth } };
-  return meshByParts(blend, parts, terms, LocalInteraction(), LocalIslandField(blend), options,
-    edgeLength, report, progress);
+  return keep(
+    [&]
+    {
+      BlendMeshReport report;
+      std::optional<TriangleMesh> mesh =
+        mesher.meshOver(std::move(*patch), report, ProgressPart(progress, 0.4, 1.0));
+      warnings.add(mesh ? report.warning : std::string());
+      return mesh;
+    });
 }
 
 void forgetBlends()

@@ -2,10 +2,17 @@
 #pragma once
 
 #include "core/nodes/Blend.h"
+#include "core/nodes/BlendCost.h"
+#include "core/nodes/Deformation.h"
+#include "core/nodes/DeformedBlendCost.h"
 #include "core/nodes/MarkedCells.h"
+#include "core/stitch/Stitch.h"
 
 #include <cstddef>
+#include <functional>
+#include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -81,6 +88,63 @@ struct LocalBlendParts
 TriangleMesh localBlendMesh(const Node& blend, const LocalBlendParts& parts,
   const BlendOptions& options, double edgeLength, BlendMeshReport& report,
   const Progress& progress = Progress::none());
+
+/// What is kept of the parts of a blend, and where it is made anew.
+struct BlendPatch
+{
+  std::vector<KeptPart> kept;
+  CellSet cells;
+};
+
+/// blendMesh() and localBlendMesh() in steps, for a mesh that a map deforms.
+class BlendMesher
+{
+public:
+  ///@{ \pre parts and what they point to outlive this.
+  BlendMesher(const Node& blend, std::vector<BlendPart> parts, const BlendOptions& options,
+    double edgeLength);
+  BlendMesher(const Node& blend, const LocalBlendParts& parts, const BlendOptions& options,
+    double edgeLength);
+  ///@}
+  ~BlendMesher();
+  BlendMesher(const BlendMesher&) = delete;
+  BlendMesher& operator=(const BlendMesher&) = delete;
+
+  TriangleMesh mesh(BlendMeshReport& report, const Progress& progress) const;
+
+  /// Where the automatic method makes mesh() over the lattice, but keeping the parts' meshes and
+  /// deforming the result would cost less than deforming that of the lattice, most of which has
+  /// thin triangles that a map must mend. Nothing elsewhere, where mesh() will do.
+  std::optional<BlendPatch> patchToDeform(const Deformation& by, const Progress& progress) const;
+
+  /// Nothing where it could not be joined.
+  std::optional<TriangleMesh> meshOver(
+    BlendPatch patch, BlendMeshReport& report, const Progress& progress) const;
+
+private:
+  /// Skeletons are sampled whole in no time: there the choice comes before anything is meshed.
+  bool choosesFirst() const { return method_ == BlendMethod::Automatic && !blend_.isFaceted(); }
+  BlendCost cost() const;
+  DeformedBlendCost costToDeform(double growth) const;
+  std::optional<TriangleMesh> stitchOver(const std::vector<KeptPart>& kept, CellSet cells,
+    BlendMeshReport& report, const Progress& progress) const;
+
+  const Node& blend_;
+  const std::vector<BlendPart> parts_;
+  const std::vector<MarkTerm> terms_;
+  const std::vector<MarkTerm> shapes_; ///< of these, those that make the surface
+  const std::unique_ptr<const Interaction> interaction_;
+  const std::unique_ptr<const IslandField> field_;
+  const BlendMethod method_;
+  const CellGrid grid_;
+};
+
+/// Keeps what is made, or takes what was made before.
+using KeepMesh = std::function<MeshPtr(const std::function<std::optional<TriangleMesh>()>& make)>;
+
+/// Node::otherMeshToDeform() of a blend.
+MeshPtr blendMeshToDeform(const BlendMesher& mesher, const Deformation& by,
+  const MeshWarnings& warnings, const KeepMesh& keep, const Progress& progress);
 
 /// Forgets what was made for earlier blends; for tests and benchmarks.
 void forgetBlends();

@@ -2,6 +2,7 @@
 #include "core/nodes/DeformedMeshNode.h"
 
 #include "core/base/Scratch.h"
+#include "core/nodes/Deformation.h"
 #include "core/nodes/WarpImage.h"
 #include "core/nodes/WarpMesh.h"
 #include "core/polygonize/Polygonize.h"
@@ -118,7 +119,8 @@ TriangleMesh DeformedMesh::makeMesh(const Progress& progress) const
     return this->imageOfMesh(source, edgeLength, after);
   }
   edgeLength = edgeLength > 0.0 ? edgeLength : child_->defaultEdgeLength();
-  const MeshPtr source = child_->mesh(edgeLength, before);
+  const Deformation deformation(*setting_.warp, Deformation::If::Always);
+  const MeshPtr source = child_->meshToDeform(edgeLength, deformation, before);
   TriangleMesh mesh = this->imageOfMesh(*source, edgeLength, after);
   alignNormals(mesh);
   return mesh;

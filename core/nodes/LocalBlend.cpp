@@ -251,14 +251,23 @@ protected:
   TriangleMesh makeMesh(double edgeLength, const Progress& progress) const override
   {
     BlendMeshReport report;
-    TriangleMesh mesh = localBlendMesh(
-      *this, { a_, b_, region_, union_.get() }, options_, edgeLength, report, progress);
+    TriangleMesh mesh =
+      localBlendMesh(*this, this->meshParts(), options_, edgeLength, report, progress);
     meshWarnings_.add(report.warning);
     for (const std::string& warning : warningsOfFlatCuts(this->children()))
     {
       meshWarnings_.add(warning);
     }
     return mesh;
+  }
+
+  MeshPtr findOtherMesh(
+    double edgeLength, const Deformation& by, const Progress& progress) const override
+  {
+    const BlendMesher mesher(*this, this->meshParts(), options_, edgeLength);
+    return blendMeshToDeform(
+      mesher, by, meshWarnings_,
+      [&](const auto& make) { return this->keptOtherMesh(edgeLength, nullptr, make); }, progress);
   }
 
   NodePtr withChildren(std::vector<NodePtr> children) const override
@@ -270,6 +279,8 @@ protected:
   NodePtr makeUnderBlend() const override { return this->shared_from_this(); }
 
 private:
+  LocalBlendParts meshParts() const { return { a_, b_, region_, union_.get() }; }
+
   Box3 findInfluenceBounds() const
   {
     Box3 box;

@@ -17,12 +17,47 @@ namespace
 // Enough for a drag back and forth between two levels of detail, without hoarding.
 constexpr std::size_t kKeptMeshes = 4;
 
+// The meshes made last, by whatever tells them apart.
+template <typename Key>
+class RecentMeshes
+{
+public:
+  // Held while meshing: a second thread that wants the same mesh waits for it instead of making it
+  // again. Children lock their own mutex, and a tree has no cycles. Null where none is made.
+  template <typename Make>
+  MeshPtr of(const Key& key, const Make& make)
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    for (const auto& [known, mesh] : kept_)
+    {
+      if (known == key)
+      {
+        return mesh;
+      }
+    }
+    MeshPtr mesh = make();
+    if (mesh && kept_.size() == kKeptMeshes)
+    {
+      kept_.erase(kept_.begin());
+    }
+    if (mesh)
+    {
+      kept_.emplace_back(key, mesh);
+    }
+    return mesh;
+  }
+
+private:
+  std::mutex mutex_;
+  std::vector<std::pair<Key, MeshPtr>> kept_;
+};
+
 } // namespace
 
 struct Node::Meshes
 {
-  std::mutex mutex;
-  std::vector<std::pair<double, MeshPtr>> kept; // by edge length
+  RecentMeshes<double> plain;                      // by edge length
+  RecentMeshes<std::pair<double, MeshPtr>> others; // and by the mesh they are made from
 };
 
 Node::~Node()
@@ -65,25 +100,44 @@ MeshPtr Node::mesh(double edgeLength, const Progress& progress) const
   requireEdgeLength(edgeLength);
   requireRepresentable(this->surfaceBounds());
   const double length = edgeLength > 0.0 ? edgeLength : this->defaultEdgeLength();
-  // Held while meshing: a second thread that wants the same mesh waits for it instead of making it
-  // again. Children lock their own mutex, and a tree has no cycles.
-  Meshes& meshes = this->meshes();
-  const std::lock_guard<std::mutex> lock(meshes.mutex);
-  for (const auto& [kept, mesh] : meshes.kept)
-  {
-    if (kept == length)
+  return this->meshes().plain.of(length,
+    [&]
     {
-      return mesh;
-    }
-  }
+      this->prepare(progress);
+      return std::make_shared<const TriangleMesh>(this->makeMesh(length, progress));
+    });
+}
+
+MeshPtr Node::meshToDeform(double edgeLength, const Deformation& by, const Progress& progress) const
+{
+  const MeshPtr other = this->otherMeshToDeform(edgeLength, by, progress);
+  return other ? other : this->mesh(edgeLength, progress);
+}
+
+MeshPtr Node::otherMeshToDeform(
+  double edgeLength, const Deformation& by, const Progress& progress) const
+{
+  requireEdgeLength(edgeLength);
+  requireRepresentable(this->surfaceBounds());
   this->prepare(progress);
-  auto mesh = std::make_shared<const TriangleMesh>(this->makeMesh(length, progress));
-  if (meshes.kept.size() == kKeptMeshes)
-  {
-    meshes.kept.erase(meshes.kept.begin());
-  }
-  meshes.kept.emplace_back(length, mesh);
-  return mesh;
+  return this->findOtherMesh(
+    edgeLength > 0.0 ? edgeLength : this->defaultEdgeLength(), by, progress);
+}
+
+MeshPtr Node::findOtherMesh(double, const Deformation&, const Progress&) const
+{
+  return nullptr;
+}
+
+MeshPtr Node::keptOtherMesh(double edgeLength, const MeshPtr& from,
+  const std::function<std::optional<TriangleMesh>()>& make) const
+{
+  return this->meshes().others.of({ edgeLength, from },
+    [&]() -> MeshPtr
+    {
+      std::optional<TriangleMesh> mesh = make();
+      return mesh ? std::make_shared<const TriangleMesh>(std::move(*mesh)) : nullptr;
+    });
 }
 
 NodePtr Node::affine(const Affine3& map) const

@@ -7,6 +7,7 @@
 #include "core/polygonize/FieldSource.h"
 
 #include <atomic>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,6 +24,7 @@ struct SurfaceField
   int exponent;           ///< n
 };
 
+class Deformation;
 class Node;
 using NodePtr = std::shared_ptr<const Node>;
 
@@ -76,6 +78,15 @@ public:
   /// \throws InvalidParameter, InvalidGeometry, TooLarge, Cancelled.
   MeshPtr mesh(double edgeLength = 0.0, const Progress& progress = Progress::none()) const;
 
+  /// A mesh of the same surface for a map: as mesh(), or another one where that one and the work of
+  /// deforming it cost less together. Kept as well. The same whatever was asked before.
+  MeshPtr meshToDeform(
+    double edgeLength, const Deformation& by, const Progress& progress = Progress::none()) const;
+
+  /// The same, null where it is that of mesh(): nothing is made then.
+  MeshPtr otherMeshToDeform(
+    double edgeLength, const Deformation& by, const Progress& progress = Progress::none()) const;
+
   /// About diagonal of surfaceBounds() / 100: the nearest power of 2^(1/8).
   double defaultEdgeLength() const;
 
@@ -121,6 +132,15 @@ public:
 
 protected:
   virtual TriangleMesh makeMesh(double edgeLength, const Progress& progress) const = 0;
+
+  /// As otherMeshToDeform(), with what the field needs prepared. By default mesh() will do.
+  virtual MeshPtr findOtherMesh(
+    double edgeLength, const Deformation& by, const Progress& progress) const;
+
+  /// A mesh that is kept besides those of mesh(), by edge length and by the mesh that it is made
+  /// from, null for none. Where `make` makes none it is asked again the next time.
+  MeshPtr keptOtherMesh(double edgeLength, const MeshPtr& from,
+    const std::function<std::optional<TriangleMesh>()>& make) const;
 
   /// \pre map is finite and invertible.
   virtual NodePtr makeAffine(const Affine3& map) const = 0;

@@ -44,12 +44,13 @@ double flatness(const std::vector<Vec3>& points, const Triangle& t)
 }
 
 // Whether the deformation has made any triangle clearly worse, and bad: slivers that a mesh leaf
-// came with are its own.
+// came with are its own. Next to nothing is not halved by rounding, nor by a slight bow.
 bool hasBadNewShapes(
   const TriangleMesh& before, const std::vector<Vec3>& after, const Progress& progress)
 {
   constexpr double kBad = 0.3;
   constexpr double kWorse = 0.8;
+  constexpr double kDrop = 0.02;
   std::atomic<bool> any{ false };
   parallelFor(before.triangles.size(), kGrain,
     [&](std::size_t begin, std::size_t end)
@@ -58,7 +59,8 @@ bool hasBadNewShapes(
       for (std::size_t t = begin; t < end && !any; ++t)
       {
         const double now = flatness(after, before.triangles[t]);
-        if (now < kBad && now < kWorse * flatness(before.points, before.triangles[t]))
+        const double then = flatness(before.points, before.triangles[t]);
+        if (now < kBad && now < kWorse * then && now < then - kDrop)
         {
           any = true;
         }

@@ -3,6 +3,7 @@
 
 #include "core/base/Parallel.h"
 #include "core/base/Scratch.h"
+#include "core/nodes/Deformation.h"
 #include "core/nodes/LatticeMesh.h"
 #include "core/nodes/WarpImage.h"
 #include "core/nodes/WarpMesh.h"
@@ -257,14 +258,37 @@ void WarpedNode::sourceLeaf(PointBatch points, std::int32_t* leaf) const
 
 TriangleMesh WarpedNode::makeMesh(double edgeLength, const Progress& progress) const
 {
-  const MeshPtr source = child_->mesh(edgeLength, ProgressPart(progress, 0.0, 0.5));
-  std::vector<Vec3> image = imageOf(*warp_, source->points, progress);
-  if (!isOneToOne(*warp_, source->points, image, edgeLength, progress))
+  const Deformation deformation(*warp_, Deformation::If::OneToOne);
+  const MeshPtr source =
+    child_->meshToDeform(edgeLength, deformation, ProgressPart(progress, 0.0, 0.5));
+  return this->imageOfMesh(*source, edgeLength, ProgressPart(progress, 0.5, 1.0));
+}
+
+MeshPtr WarpedNode::findOtherMesh(
+  double edgeLength, const Deformation& by, const Progress& progress) const
+{
+  const ProgressPart before(progress, 0.0, 0.5);
+  const Deformation alone(*warp_, Deformation::If::OneToOne);
+  const Deformation all(*warp_, Deformation::If::OneToOne, &by);
+  const MeshPtr source = child_->otherMeshToDeform(edgeLength, all, before);
+  if (source == child_->otherMeshToDeform(edgeLength, alone, before))
   {
-    return latticeMesh(*this, edgeLength, ProgressPart(progress, 0.5, 1.0));
+    return nullptr;
   }
-  return warpedMesh(
-    *source, std::move(image), *warp_, edgeLength, *child_, ProgressPart(progress, 0.5, 1.0));
+  const MeshPtr from = source ? source : child_->mesh(edgeLength, before);
+  return this->keptOtherMesh(edgeLength, from,
+    [&] { return this->imageOfMesh(*from, edgeLength, ProgressPart(progress, 0.5, 1.0)); });
+}
+
+TriangleMesh WarpedNode::imageOfMesh(
+  const TriangleMesh& source, double edgeLength, const Progress& progress) const
+{
+  std::vector<Vec3> image = imageOf(*warp_, source.points, progress);
+  if (!isOneToOne(*warp_, source.points, image, edgeLength, progress))
+  {
+    return latticeMesh(*this, edgeLength, progress);
+  }
+  return warpedMesh(source, std::move(image), *warp_, edgeLength, *child_, progress);
 }
 
 } // namespace hybridtree

@@ -35,7 +35,15 @@ protected:
   /// the warp is not one-to-one on it, the field is meshed on the lattice instead.
   TriangleMesh makeMesh(double edgeLength, const Progress& progress) const override;
 
+  /// The image of another mesh of the child, where that is the cheaper one for this map and those
+  /// above it together.
+  MeshPtr findOtherMesh(
+    double edgeLength, const Deformation& by, const Progress& progress) const override;
+
 private:
+  TriangleMesh imageOfMesh(
+    const TriangleMesh& source, double edgeLength, const Progress& progress) const;
+
   const Node* child_;
   SpaceWarpPtr warp_;
   // Found when asked for: a chain of affine maps need not find those of every image between.
