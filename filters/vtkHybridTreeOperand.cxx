@@ -156,7 +156,7 @@ void OperandBlock::readTriangles(vtkPolyData* input, bool closesHoles,
     append(mesh_.repaired.warnings, newWarnings);
     if (closesHoles)
     {
-      closeHolesOf(mesh_, newWarnings, progress);
+      closeHolesOf(mesh_, newWarnings, ProgressPart(progress, 0.0, kConverted));
     }
   }
   if (!node_)

@@ -165,8 +165,8 @@ class LeastArea
 public:
   LeastArea(const std::vector<Vec3>& points, const Edges& edges) : points_(points), edges_(edges) {}
 
-  /// False where the loop cannot be closed without more points.
-  bool close(const Loop& loop)
+  /// False where the loop cannot be closed without more points. \throws Cancelled
+  bool close(const Loop& loop, const Progress& progress)
   {
     triangles.clear();
     double sum = 0.0;
@@ -175,24 +175,28 @@ public:
       sum += (this->at(loop[k]) - this->at(loop[(k + 1) % loop.size()])).squaredNorm();
     }
     unit_ = sum / double(loop.size());
-    return this->fill(loop);
+    count_ = loop.size();
+    return this->fill(loop, progress);
   }
 
   std::vector<Triangle> triangles;
 
 private:
   static constexpr std::size_t kMost = 400;
+  static constexpr std::size_t kLongestStep = 20; ///< each pocket takes the cube of its length
 
   const Vec3& at(std::int32_t point) const { return points_[std::size_t(point)]; }
 
   /// A loop of more points has the pockets between every n-th of them filled first.
-  bool fill(const Loop& loop)
+  bool fill(const Loop& loop, const Progress& progress)
   {
+    progress.report(double(triangles.size()) / double(count_));
+    progress.check();
     if (loop.size() <= kMost)
     {
       return this->fillBest(loop);
     }
-    const std::size_t step = (loop.size() + kMost - 1) / kMost;
+    const std::size_t step = std::min((loop.size() + kMost - 1) / kMost, kLongestStep);
     Loop coarse;
     for (std::size_t begin = 0; begin < loop.size(); begin += step)
     {
@@ -202,12 +206,13 @@ private:
       {
         pocket.push_back(loop[k % loop.size()]);
       }
-      if (pocket.size() > 2 && (edges_.has(pocket.front(), pocket.back()) || !this->fill(pocket)))
+      if (pocket.size() > 2 &&
+        (edges_.has(pocket.front(), pocket.back()) || !this->fill(pocket, progress)))
       {
         return false;
       }
     }
-    return this->fill(coarse);
+    return this->fill(coarse, progress);
   }
 
   bool fillBest(const Loop& loop)
@@ -245,7 +250,8 @@ private:
 
   const std::vector<Vec3>& points_;
   const Edges& edges_;
-  double unit_ = 0.0; ///< mean square of the edges of the loop
+  double unit_ = 0.0;     ///< mean square of the edges of the loop
+  std::size_t count_ = 1; ///< of its points
   BestTriangulation best_;
 };
 
@@ -282,11 +288,12 @@ ClosedHoles closeHoles(TriangleMesh& mesh, const Progress& progress)
   closed.left = loops.lost;
   Edges edges(mesh, loops.found);
   LeastArea least(mesh.points, edges);
-  for (const Loop& loop : loops.found)
+  const double share = 1.0 / double(std::max(loops.found.size(), std::size_t(1)));
+  for (std::size_t k = 0; k < loops.found.size(); ++k)
   {
-    progress.check();
+    const Loop& loop = loops.found[k];
     Vec3 middle;
-    if (!least.close(loop))
+    if (!least.close(loop, ProgressPart(progress, share * double(k), share * double(k + 1))))
     {
       least.triangles.clear();
       if (!middleOf(mesh.points, loop, middle))
@@ -297,9 +304,9 @@ ClosedHoles closeHoles(TriangleMesh& mesh, const Progress& progress)
       const auto center = std::int32_t(mesh.points.size());
       mesh.points.push_back(middle);
       closed.addedFrom.push_back(loop.front());
-      for (std::size_t k = 0; k < loop.size(); ++k)
+      for (std::size_t n = 0; n < loop.size(); ++n)
       {
-        least.triangles.push_back({ center, loop[k], loop[(k + 1) % loop.size()] });
+        least.triangles.push_back({ center, loop[n], loop[(n + 1) % loop.size()] });
       }
     }
     ++closed.holes;

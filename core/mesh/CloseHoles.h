@@ -21,9 +21,9 @@ struct ClosedHoles
 
 /// Closes every loop of open edges by triangles between its points, of the smallest area there is
 /// (Barequet and Sharir 1995), the better shaped ones where areas are alike; loops of more than 400
-/// points, whose smallest area would take long, along every n-th of them first. Its old points and
-/// triangles stay where they are in the lists, the new ones come last, and closed shells then face
-/// as orientTriangles() has it.
+/// points, whose smallest area would take long, along every n-th of them first, 20th at most. Its
+/// old points and triangles stay where they are in the lists, the new ones come last, and closed
+/// shells then face as orientTriangles() has it.
 ///
 /// New triangles are joined to others along the loop alone: where its points are too close for
 /// that (edges of the mesh run between them), or where loops touch, a point in its middle is added

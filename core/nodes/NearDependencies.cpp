@@ -60,7 +60,8 @@ void NearDependencies::add(const Node& node, std::int32_t firstLeaf, double coun
     faceted_ = faceted_ || node.isFaceted();
     return;
   }
-  const auto [place, isNew] = places_.emplace(&node, static_cast<std::int64_t>(found_.size()));
+  auto& places = leaves == Leaves::Numbered ? numberedPlaces_ : namelessPlaces_;
+  const auto [place, isNew] = places.emplace(&node, static_cast<std::int64_t>(found_.size()));
   if (isNew)
   {
     this->addOperands(*op, *law, firstLeaf, count, leaves);

@@ -56,7 +56,11 @@ private:
   Leaves leaves_;
   bool faceted_ = false;
   std::vector<Dependency> found_;
-  std::unordered_map<const Node*, std::int64_t> places_; ///< of operators in what was found
+  ///@{
+  /// Of operators in what was found, with leaves that are told apart and without.
+  std::unordered_map<const Node*, std::int64_t> numberedPlaces_;
+  std::unordered_map<const Node*, std::int64_t> namelessPlaces_;
+  ///@}
 };
 
 } // namespace hybridtree

@@ -78,7 +78,7 @@ TEST(CloseHoles, LeavesAClosedMeshAlone)
 
 TEST(CloseHoles, FillsFlatHolesFlat)
 {
-  for (const std::int32_t around : { 3, 4, 50, 400, 401, 3000 })
+  for (const std::int32_t around : { 3, 4, 50, 400, 401, 3000, 100000 })
   {
     TriangleMesh mesh = openCone(around);
     const TriangleMesh open = mesh;
@@ -88,6 +88,34 @@ TEST(CloseHoles, FillsFlatHolesFlat)
     EXPECT_NEAR(areaOf(mesh, open.triangles.size()), area, 1e-9) << around << " points";
     EXPECT_NEAR(signedVolume(mesh), area / 3.0, 1e-9) << around << " points";
   }
+}
+
+// Long loops and many of them take a while, in which only observers of progress can stop it.
+TEST(CloseHoles, ReportsAndStopsInAndBetweenLoops)
+{
+  class StopsAt final : public Progress
+  {
+  public:
+    explicit StopsAt(int times) : times_(times) {}
+    void report(double fraction) const override
+    {
+      EXPECT_GE(fraction, last);
+      EXPECT_LE(fraction, 1.0);
+      last = fraction;
+      ++reports;
+    }
+    bool cancelled() const override { return reports >= times_; }
+    mutable double last = 0.0;
+    mutable int reports = 0;
+
+  private:
+    int times_;
+  };
+  TriangleMesh mesh = openCone(100000);
+  const StopsAt tenth(10);
+  EXPECT_THROW(closeHoles(mesh, tenth), Cancelled);
+  mesh = withoutTriangles(withoutTriangles(icosphere(1.0, 3), 100, 3), 0, 3);
+  EXPECT_THROW(closeHoles(mesh, StopsAt(2)), Cancelled);
 }
 
 // A saddle: the loop turns up and down. No fan from one of its points has less area, but for what

@@ -231,6 +231,21 @@ TEST(NearDependencies, TellWhatIsNearAndHowItIsPutTogether)
   }
 }
 
+// Of a region only the field counts; elsewhere the same node's leaves have numbers.
+TEST(NearDependencies, TellNumbersOfLeavesOfWhatIsARegionAsWell)
+{
+  const NodePtr small = ball(Vec3(0, 0, 0), 0.1);
+  const NodePtr large = ball(Vec3(0.2, 0.2, 0.2), 1.0);
+  const NodePtr far = ball(Vec3(9, 0, 0), 0.5);
+  const std::vector<Box3> boxes{ Box3(Vec3(0, 0, 0), Vec3(0.3, 0.3, 0.3)) };
+  const auto twice = [&](const NodePtr& node)
+  { return makeLocalBlend(makeLocalBlend(small, small, node), node, far); };
+  const NodePtr before = twice(makeBlend({ far, large }));
+  const NodePtr after = twice(makeBlend({ large, far }));
+  ASSERT_FALSE(answersOf(*before, boxes, 1) == answersOf(*after, boxes, 1));
+  EXPECT_NE(dependenciesOf(*before, boxes), dependenciesOf(*after, boxes));
+}
+
 // 2^18 ways down to the leaf.
 TEST(NearDependencies, NodesInManyPlacesAreToldOnce)
 {
