@@ -4,6 +4,7 @@
 #include "core/boolean/CompactResult.h"
 #include "core/boolean/FlatTriangles.h"
 #include "core/boolean/NearCut.h"
+#include "core/boolean/VolumeSum.h"
 
 #include <algorithm>
 #include <array>
@@ -17,7 +18,9 @@ namespace
 {
 
 constexpr double kTolerance = 0x1p-46;
-constexpr double kVolumeRounding = 0x1p-52; // of the product of three lengths
+// Of a tetrahedron's volume, as a share of the product of three lengths, and of a sum.
+constexpr double kVolumeRounding = 0x1p-51;
+constexpr double kSumRounding = 0x1p-52;
 // Flat triangles of a component without thickness, in which two surfaces cross all around.
 constexpr std::size_t kFewest = 4;
 
@@ -142,36 +145,67 @@ private:
       mesh_.points[std::size_t(c[2])], tolerance_);
   }
 
+  // What is known of a component.
+  struct Extent
+  {
+    double volume = 0.0;
+    double area = 0.0;
+    double rounding = 0.0; // of the volume, at most
+    bool needsMore = false;
+    VolumeSum more;
+  };
+
   // Components whose volume is less than the tolerance times their area: nothing is between. Where
-  // all triangles are flat there is so little area that rounding may give more volume than that.
+  // rounding hides which it is, as with long and narrow ones, the volume is summed again, so
+  // precisely that what is left of it has no width.
   void dropThinComponents()
   {
     const std::vector<std::int32_t> component = this->components();
-    std::vector<double> volume(mesh_.points.size(), 0.0);
-    std::vector<double> area(mesh_.points.size(), 0.0);
-    std::vector<double> rounding(mesh_.points.size(), 0.0);
-    std::vector<char> allFlat(mesh_.points.size(), 1);
+    std::vector<Extent> extents = this->extentsOf(component);
     for (const Triangle& c : mesh_.triangles)
     {
       const std::size_t root = std::size_t(component[std::size_t(c[0])]);
-      const Vec3& origin = mesh_.points[root];
-      const Vec3 p = mesh_.points[std::size_t(c[0])] - origin;
-      const Vec3 q = mesh_.points[std::size_t(c[1])] - origin;
-      const Vec3 r = mesh_.points[std::size_t(c[2])] - origin;
-      volume[root] += p.dot(q.cross(r)) / 6.0;
-      area[root] += 0.5 * (q - p).cross(r - p).norm();
-      rounding[root] += kVolumeRounding * p.norm() * q.norm() * r.norm();
-      allFlat[root] = allFlat[root] != 0 && this->isFlatNow(c);
+      if (extents[root].needsMore)
+      {
+        extents[root].more.add(mesh_.points[root], mesh_.points[std::size_t(c[0])],
+          mesh_.points[std::size_t(c[1])], mesh_.points[std::size_t(c[2])]);
+      }
     }
     for (Triangle& c : mesh_.triangles)
     {
-      const std::size_t root = std::size_t(component[std::size_t(c[0])]);
-      const double spurious = allFlat[root] != 0 ? rounding[root] : 0.0;
-      if (std::abs(volume[root]) <= tolerance_ * area[root] + spurious)
+      const Extent& extent = extents[std::size_t(component[std::size_t(c[0])])];
+      const double thin = tolerance_ * extent.area;
+      if (extent.needsMore ? std::abs(extent.more.value()) <= thin + extent.more.rounding()
+                           : std::abs(extent.volume) <= thin)
       {
         c.fill(-1);
       }
     }
+  }
+
+  // Per component, at the point that stands for it.
+  std::vector<Extent> extentsOf(const std::vector<std::int32_t>& component) const
+  {
+    std::vector<Extent> extents(mesh_.points.size());
+    for (const Triangle& c : mesh_.triangles)
+    {
+      const std::size_t root = std::size_t(component[std::size_t(c[0])]);
+      Extent& extent = extents[root];
+      const Vec3& origin = mesh_.points[root];
+      const Vec3 p = mesh_.points[std::size_t(c[0])] - origin;
+      const Vec3 q = mesh_.points[std::size_t(c[1])] - origin;
+      const Vec3 r = mesh_.points[std::size_t(c[2])] - origin;
+      extent.volume += p.dot(q.cross(r)) / 6.0;
+      extent.area += 0.5 * (q - p).cross(r - p).norm();
+      extent.rounding +=
+        kVolumeRounding * p.norm() * q.norm() * r.norm() + kSumRounding * std::abs(extent.volume);
+    }
+    for (Extent& extent : extents)
+    {
+      const double beyond = std::abs(std::abs(extent.volume) - tolerance_ * extent.area);
+      extent.needsMore = !(beyond > extent.rounding);
+    }
+    return extents;
   }
 
   // Triangles around the marked points, two rings of them: those in the inner one may change.

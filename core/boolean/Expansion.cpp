@@ -1,38 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/boolean/Expansion.h"
 
+#include "core/boolean/TwoSum.h"
+
 #include <cmath>
 #include <cstddef>
 
 namespace hybridtree
 {
-namespace
-{
-
-struct Sum
-{
-  double high;
-  double low;
-};
-
-Sum twoSum(double a, double b)
-{
-  const double high = a + b;
-  const double rounded = high - a;
-  return { high, (a - (high - rounded)) + (b - rounded) };
-}
-
-Sum fastTwoSum(double large, double small)
-{
-  const double high = large + small;
-  return { high, small - (high - large) };
-}
-
-} // namespace
 
 Expansion Expansion::difference(double a, double b)
 {
-  const Sum sum = twoSum(a, -b);
+  const TwoDoubles sum = twoSum(a, -b);
   Expansion result;
   result.push(sum.low);
   result.push(sum.high);
@@ -46,7 +25,7 @@ void Expansion::grow(double value)
   std::size_t kept = 0;
   for (std::size_t k = 0; k < parts_.size(); ++k)
   {
-    const Sum sum = twoSum(total, parts_[k]);
+    const TwoDoubles sum = twoSum(total, parts_[k]);
     total = sum.high;
     if (sum.low != 0.0)
     {
@@ -68,7 +47,7 @@ void Expansion::compress()
   double total = parts_[bottom];
   for (std::size_t k = bottom; k-- > 0;)
   {
-    const Sum sum = fastTwoSum(total, parts_[k]);
+    const TwoDoubles sum = fastTwoSum(total, parts_[k]);
     total = sum.high;
     if (sum.low != 0.0)
     {
@@ -80,7 +59,7 @@ void Expansion::compress()
   std::size_t top = 0;
   for (std::size_t k = bottom + 1; k < parts_.size(); ++k)
   {
-    const Sum sum = fastTwoSum(parts_[k], total);
+    const TwoDoubles sum = fastTwoSum(parts_[k], total);
     total = sum.high;
     if (sum.low != 0.0)
     {

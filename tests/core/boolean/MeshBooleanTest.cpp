@@ -3,7 +3,6 @@
 
 #include "core/base/Error.h"
 #include "core/base/Parallel.h"
-#include "core/boolean/CleanResult.h"
 #include "core/mesh/MeshChecks.h"
 #include "tests/core/boolean/BooleanCases.h"
 #include "tests/core/boolean/NearCases.h"
@@ -314,31 +313,6 @@ TEST(MeshBoolean, EmptyAndDistantOperandsAreAnswers)
   EXPECT_EQ(faultsOf(allOperations(ball, {}), ball, {}, 0.0), "");
   EXPECT_EQ(faultsOf(allOperations({}, ball), {}, ball, 0.0), "");
   EXPECT_EQ(faultsOf(allOperations({}, {}), {}, {}, 0.0), "");
-}
-
-// Four points on a line but for rounding: what little volume they have is rounding.
-TEST(MeshBoolean, ComponentsOfRoundingAloneAreDropped)
-{
-  for (std::uint64_t seed = 1; seed <= 20; ++seed)
-  {
-    Random random(seed);
-    const TriangleMesh ball = icosphere(1.0, 1);
-    const Vec3 start = 0.5 * random.direction();
-    const Vec3 way = 0.1 * random.direction();
-    TriangleMesh needle;
-    for (int k = 0; k < 4; ++k)
-    {
-      needle.points.push_back(start + random.uniform(0.0, 1.0) * way);
-    }
-    needle.triangles = { { 0, 1, 2 }, { 0, 3, 1 }, { 1, 3, 2 }, { 2, 3, 0 } };
-    MeshBooleanResult result;
-    result.mesh = joined(ball, needle);
-    result.sourceOperand.assign(result.mesh.triangles.size(), 0);
-    result.sourceTriangle.assign(result.mesh.triangles.size(), -1);
-    result.cutPoints.resize(result.mesh.points.size());
-    cleanResult(result, false);
-    EXPECT_EQ(result.mesh.triangles, ball.triangles) << "seed " << seed;
-  }
 }
 
 TEST(MeshBoolean, OpenOperandIsClosedAndTold)
