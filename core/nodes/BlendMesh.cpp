@@ -23,6 +23,7 @@ namespace
 {
 
 constexpr std::size_t kMaxBytes = std::size_t(8) << 30;
+constexpr double kSlightGrowth = 0.1; // of a surface: few triangles are split then
 
 /// The cells that are the same for all methods: what is too thin for them is so for each.
 CellGrid gridOf(const Node& blend, double edgeLength)
@@ -312,9 +313,9 @@ BlendCost BlendMesher::cost() const
   return BlendCost(sampleCost(terms_, grid_.cellSize), blend_.isFaceted());
 }
 
-DeformedBlendCost BlendMesher::costToDeform(double growth) const
+DeformedBlendCost BlendMesher::costToDeform(const SurfaceStretch& stretch) const
 {
-  return DeformedBlendCost(this->cost(), sampleCost(terms_, grid_.cellSize), growth);
+  return DeformedBlendCost(this->cost(), sampleCost(terms_, grid_.cellSize), stretch);
 }
 
 TriangleMesh BlendMesher::mesh(BlendMeshReport& report, const Progress& progress) const
@@ -376,18 +377,18 @@ std::optional<BlendPatch> BlendMesher::patchToDeform(
   std::vector<MarkTerm> terms = terms_;
   const MemoryBudget budget{ kMaxBytes, grid_.cellSize };
   const ProgressPart marking(progress, 0.3, 0.4);
-  // Only where it is the lattice that is chosen, and would have to be mended.
-  const auto isToBeMended = [&](const SurfaceStretch& stretch)
-  { return stretch.spoilsShapes && stretch.isOneToOne; };
+  // Only where it is the lattice that is chosen otherwise, and has to be changed much.
+  const auto isMuchChanged = [](const SurfaceStretch& stretch)
+  { return stretch.isOneToOne && (stretch.spoilsShapes || stretch.growth > kSlightGrowth); };
   std::optional<CellSet> cells;
   if (this->choosesFirst())
   {
     const BlendSample sample(blend_, shapes_, grid_.cellSize);
     const SurfaceStretch stretch = stretchOf(by, sample.surface(), grid_.cellSize);
     BlendChoice choice(terms, *interaction_, grid_, budget, marking);
-    if (isToBeMended(stretch) && !choice.byTerms(this->cost()))
+    if (isMuchChanged(stretch) && !choice.byTerms(this->cost()))
     {
-      cells = choice.bySample(this->costToDeform(stretch.growth), sample);
+      cells = choice.bySample(this->costToDeform(stretch), sample);
     }
     if (!cells)
     {
@@ -406,9 +407,9 @@ std::optional<BlendPatch> BlendMesher::patchToDeform(
   {
     const SurfaceStretch stretch = stretchOf(by, sampleSurfaces(meshesOf(kept)), grid_.cellSize);
     BlendChoice choice(terms, *interaction_, grid_, budget, marking);
-    if (isToBeMended(stretch) && !choice.byMeshes(this->cost(), kept))
+    if (isMuchChanged(stretch) && !choice.byMeshes(this->cost(), kept))
     {
-      cells = choice.byMeshes(this->costToDeform(stretch.growth), kept);
+      cells = choice.byMeshes(this->costToDeform(stretch), kept);
     }
   }
   return cells ? std::optional<BlendPatch>({ std::move(kept), std::move(*cells) }) : std::nullopt;

@@ -125,7 +125,7 @@ private:
   /// Skeletons are sampled whole in no time: there the choice comes before anything is meshed.
   bool choosesFirst() const { return method_ == BlendMethod::Automatic && !blend_.isFaceted(); }
   BlendCost cost() const;
-  DeformedBlendCost costToDeform(double growth) const;
+  DeformedBlendCost costToDeform(const SurfaceStretch& stretch) const;
   std::optional<TriangleMesh> stitchOver(const std::vector<KeptPart>& kept, CellSet cells,
     BlendMeshReport& report, const Progress& progress) const;
 

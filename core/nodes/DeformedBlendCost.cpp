@@ -6,17 +6,19 @@ namespace hybridtree
 namespace
 {
 
-// To map a triangle and mend it where it is thin: on average, and the more the map stretches the
-// surface, as that makes triangles. Fitted to balls and limbs under twists, tapers and bends.
+// To map a triangle, and to split it, the more the map stretches the surface. Fitted to balls and
+// limbs under twists, tapers and bends.
 constexpr double kLatticeTriangles = 3.0; // per square
 constexpr double kKeptTriangles = 3.8;    // of shapes that are meshed directly
 constexpr double kNewTriangles = 0.45;    // per marked cell
-constexpr double kMendLattice = 0.63;
-constexpr double kMendLatticeGrown = 1.8;
-constexpr double kMend = 0.13;
-constexpr double kMendGrown = 0.45;
-constexpr double kMendNew = 0.16; // more than that
-constexpr double kMendNewGrown = 0.7;
+constexpr double kMap = 0.13;
+constexpr double kSplit = 0.45;
+constexpr double kSplitLattice = 1.8;
+constexpr double kSplitNew = 0.7; // more than of others
+
+// To mend it where it is thin, on average.
+constexpr double kMendLattice = 0.5;
+constexpr double kMendNew = 0.16;
 
 // How long the lines are along which meshes are cut tells the cost of a patch better than the cells
 // at its border: most of those only lie above others.
@@ -67,7 +69,7 @@ double DeformedBlendCost::global(const BlendCost::Surface& surface) const
 {
   return plain_.global(surface) +
     kLatticeTriangles * (surface.kept + surface.givenUp) *
-    (kMendLattice + kMendLatticeGrown * growth_);
+    (kMap + kSplitLattice * growth_ + (mends_ ? kMendLattice : 0.0));
 }
 
 double DeformedBlendCost::local(double cells, const Division& division) const
@@ -75,20 +77,20 @@ double DeformedBlendCost::local(double cells, const Division& division) const
   return kDoubt *
     (kPatchLine * division.border + cells * (kPatchCell + sample_.inCell) +
       kKeptSquare * division.kept +
-      this->mending(kKeptTriangles * division.kept, kNewTriangles * cells));
+      this->deforming(kKeptTriangles * division.kept, kNewTriangles * cells));
 }
 
 double DeformedBlendCost::local(double cells, double border, const Surface& surface) const
 {
   return kDoubt *
     (plain_.local(cells, border, surface.plain) +
-      this->mending(surface.triangles, kNewTriangles * cells));
+      this->deforming(surface.triangles, kNewTriangles * cells));
 }
 
-double DeformedBlendCost::mending(double kept, double made) const
+double DeformedBlendCost::deforming(double kept, double made) const
 {
-  return (kept + made) * (kMend + kMendGrown * growth_) +
-    made * (kMendNew + kMendNewGrown * growth_);
+  return (kept + made) * (kMap + kSplit * growth_) +
+    made * (kSplitNew * growth_ + (mends_ ? kMendNew : 0.0));
 }
 
 } // namespace hybridtree

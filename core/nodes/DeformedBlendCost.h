@@ -2,12 +2,14 @@
 #pragma once
 
 #include "core/nodes/BlendCost.h"
+#include "core/nodes/Deformation.h"
 
 namespace hybridtree
 {
 
-/// As BlendCost, of a blend's mesh that a map then deforms and whose triangles it has to mend: of
-/// the lattice more than a quarter are thin, of the meshes that are kept none.
+/// As BlendCost, of a blend's mesh that a map then deforms: stretched triangles are split, and
+/// where shapes become bad thin ones are mended. Of the lattice's more than a quarter are thin, of
+/// the meshes that are kept none.
 class DeformedBlendCost
 {
 public:
@@ -25,9 +27,10 @@ public:
     double border; ///< length of the lines along which they are cut, in cells
   };
 
-  /// \param growth SurfaceStretch::growth.
-  DeformedBlendCost(const BlendCost& plain, const BlendCost::Sample& sample, double growth)
-    : plain_(plain), sample_(sample), growth_(growth)
+  /// \param stretch of the blend's surface.
+  DeformedBlendCost(
+    const BlendCost& plain, const BlendCost::Sample& sample, const SurfaceStretch& stretch)
+    : plain_(plain), sample_(sample), growth_(stretch.growth), mends_(stretch.spoilsShapes)
   {
   }
 
@@ -49,11 +52,12 @@ private:
   double global(const BlendCost::Surface& surface) const;
   double local(double cells, const Division& division) const;
   double local(double cells, double border, const Surface& surface) const;
-  double mending(double kept, double made) const; ///< triangles
+  double deforming(double kept, double made) const; ///< triangles
 
   const BlendCost plain_;
   const BlendCost::Sample sample_;
   const double growth_;
+  const bool mends_;
 };
 
 } // namespace hybridtree
